@@ -2,8 +2,8 @@
 #
 #   nplc_image(BOARD SOURCES ... LINKER_SCRIPT F BUDGETS ... STACK BYTES)
 #
-# BUDGETS are options of sizes.py. STACK is what the linker script sets aside, less what the painting leaves out. Of the
-# RAM the table and the event log, which are data, are not counted; the stack is counted as computed.
+# BUDGETS are options of sizes.py. STACK is the size reserved by the linker script without the unpainted part.
+# The RAM count leaves out the table and the event log, which are data; the stack counts as computed.
 include(NplcPython)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 include(NplcCommit)

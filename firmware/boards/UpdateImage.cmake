@@ -1,5 +1,5 @@
-# The firmware of a board that has a loader: two links of the same objects, one for each slot, a signed file with both, and
-# what is written into a new board.
+# The firmware of a board with a boot loader: two links of the same objects, one for each slot, a signed file
+# with both, and the image for programming a new board.
 #
 #   nplc_update_image(BOARD ID N SOURCES ... LOADER F.cpp F.ld ADDRESSES A B SLOT_BYTES N
 #                     STACK BYTES BUDGETS ...)

@@ -14,7 +14,7 @@ from collections import defaultdict
 
 NM = "arm-none-eabi-nm"
 LIBRARIES = "compiler's libraries"
-# Namespaces and the folders that they follow; protocol's have one below for each codec.
+# Namespaces with their folders; protocol has one per codec.
 FOLDERS = {
     "bare_metal": "firmware/boards/bare_metal", "board": "firmware/boards", "gateway": "firmware/gateway", "motor": "firmware/motor", "protocol": "firmware/protocol",
     "registers": "firmware/registers", "store": "firmware/store", "hal_mcu": "hal/mcu", "sequencer": "sequencer", "update": "firmware/update", "signature": "firmware/signature",
@@ -22,7 +22,7 @@ FOLDERS = {
 }
 SYMBOL = re.compile(r"^([0-9a-f]+) ([0-9a-f]+) (\w) (.*)$", re.MULTILINE)
 FLASH, RAM = "tTrRvVwWdD", "bBdD"
-# Names of the language and the start-up, which have no namespace.
+# Names of the C++ runtime and the start-up code, which have no namespace.
 START_UP = re.compile(r"nplc_|_GLOBAL__sub_I|__cxa_|__aeabi_atexit|__dso_handle|run_firmware|end_firmware")
 
 

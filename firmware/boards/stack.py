@@ -19,10 +19,11 @@ SITE = re.compile(r"(.+):(\d+):(\d+)$")
 INDIRECT = "__indirect_call"
 FILTER = "arm-none-eabi-c++filt"
 
-# Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
+# Possible targets of virtual calls in a file, by the qualified names of classes; of these,
+# functions with the called name.
 HAL = "nplc::hal_mcu::"
 MOTORS = ["nplc::motor::JvlMotor", "nplc::motor::MidiMotor"]
-# The classes that a board has of chip, clock and storage, and the lines that its code calls without knowing which.
+# Each board's classes for chip, clock and storage, and its possible line classes.
 BOARDS = {
     "lm3s6965evb": (HAL + "stellaris::", HAL + "cortex_m::SysTickClock", HAL + "I2cMemory", [HAL + "BufferedSerial"]),
     "microbit": (HAL + "nrf51::", HAL + "nrf51::TimerClock", HAL + "nrf51::Flash", [HAL + "BufferedSerial", HAL + "NoLine"]),
@@ -48,16 +49,17 @@ def virtual_calls(board):
     ]
 
 
-# Of an interface that no board implements: gateway/observer.h.
+# gateway/observer.h: no board implements it.
 OBSERVER = ("ordered", "scanned")
-# Answers a constant: the linker folds it into another function that does.
+# Returns a constant: the linker merges it with another function that does.
 CONSTANT = ("take_boot",)
-# Pointers to functions that are called elsewhere than in virtual functions.
+# Pointers to functions that are called outside virtual functions.
 POINTERS = {"nplc_reset": r"_GLOBAL__sub_I_"}
 ROOTS = r"nplc_reset$"
 INTERRUPTS = r"nplc::board::on_\w+"
-FRAME = 36  # bytes that an exception takes, with alignment
-# The compiler's and the C library's, whose objects carry no such files; measured in their disassembly, rounded up.
+FRAME = 36  # bytes of an exception frame, with alignment
+# Functions of the compiler and the C library, whose objects have no stack usage files; measured in
+# their disassembly, rounded up.
 FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 32, "__aeabi_llsr": 8,
            "__aeabi_uidiv": 16, "__aeabi_idiv": 16, "__aeabi_uidivmod": 16, "__aeabi_idivmod": 16}
 

@@ -1,4 +1,4 @@
-// Where there is no libmosquitto, as for boards of other architectures whose programs are linked statically.
+// Replacement without libmosquitto, as for statically linked programs of other architectures.
 #include "broker/session.h"
 
 namespace nplc::broker {

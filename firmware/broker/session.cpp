@@ -15,7 +15,7 @@ const bool kIsBuiltIn = true;
 
 Library::Library() {
     ::mosquitto_lib_init();
-    // A static program must not load the system's modules for names, which are another C library's.
+    // A static program must not load the system's name service modules, which need another C library.
     if (NPLC_STATIC) ::__nss_configure_lookup("hosts", "files dns");
 }
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t kStoppedByEnd =
 /// END_STOPS
 enum Guard : std::uint32_t { kHardware = 1, kSoftware = 8 };
 
-/// What the rules ask of a drive.
+/// The questions of the rules about a drive.
 class MidiFacts {
   public:
     MidiFacts(const MidiState& state, const std::optional<GatewayState>& gateway, const MidiTexts& texts)
@@ -118,7 +118,7 @@ constexpr std::string_view kAwayOrWider =
     "`macreg midi move --by` leads away from it, or `macreg midi limits` widens the limits.";
 
 // clang-format off
-/// In the order in which they are to be mended. Those of the gateway itself stand before kDrive's others.
+/// In the order of urgency. Those of the gateway itself stand before kDrive's others.
 constexpr Rule<MidiFacts> kFirst[] = {
     {"moves", tells, [](M m) { return m.turns(); },
      "It moves{distance}.", "POSITION", "{stop} stops it."},
@@ -242,7 +242,7 @@ void add(std::span<const Rule<MidiFacts>> rules, const MidiFacts& facts, std::ve
     }
 }
 
-/// Its sequence's state; of the line there are words for this drive.
+/// Its sequence's state; findings about the line have their own texts for this drive.
 void add_gateway(const GatewayState& gateway, std::vector<Finding>& all) {
     std::vector<Finding> found = why(gateway);
     std::erase_if(found, [](const Finding& one) { return one.code == "gateway_link_down"; });

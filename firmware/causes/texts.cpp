@@ -28,7 +28,7 @@ std::string field_text(const Field& field, std::uint32_t bits) {
     return value != 0 ? fmt::format("{}={}", field.name, value) : std::string();
 }
 
-/// Of all bits those that names_text() has a name for.
+/// The bits for which names_text() has a name.
 std::uint32_t named_bits(const Register& reg, Model model, std::int64_t raw) {
     const auto bits = static_cast<std::uint32_t>(raw);
     std::uint32_t known = 0;

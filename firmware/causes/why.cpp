@@ -38,7 +38,7 @@ constexpr Rule<Facts> kUnknown{
     "MODE_REG P_SOLL P_IST V_SOLL A_SOLL T_SOLL V_IST VF_OUT ERR_STAT",
     "Watch what it does: `macreg watch MODE_REG P_SOLL {=P_FNC} P_IST V_IST VF_OUT FLWERR`."};
 
-/// A remedy that lets the motor turn says what has to come before.
+/// A remedy that lets the motor turn names what must be done before.
 void begin_safely(const Facts& facts, Lets lets, Finding& finding) {
     if (facts.moves()) return;
     if (lets == Lets::turn) finding.remedy.insert(0, facts.before_it_turns());
@@ -49,7 +49,7 @@ void begin_safely(const Facts& facts, Lets lets, Finding& finding) {
             "can turn (hold a hanging load, which falls by that). Then: ");
 }
 
-/// Behind a gateway, what it must be told before and what it does not carry.
+/// Behind a gateway: what must be sent to the gateway before, and what it does not pass on.
 void pass_gateway(const Facts& facts, Finding& finding) {
     if (!facts.gateway()) return;
     const auto names = [&](std::string_view command) {
@@ -84,7 +84,7 @@ std::vector<Finding> why(const Condition& condition) {
         pass_gateway(facts, all.back());
     }
     if (!facts.moves() && only_tell(all)) all.push_back(finding_of(kUnknown, facts));
-    // That it moves is told first.
+    // That it moves comes first.
     std::stable_sort(all.begin() + (facts.moves() ? 1 : 0), all.end(),
                      [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
     return all;

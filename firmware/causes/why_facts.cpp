@@ -14,9 +14,10 @@ namespace {
 
 namespace gw = registers::gateway;
 
-/// Counts between two looks that encoder noise does not make.
+/// Counts between two reads that are more than encoder noise.
 constexpr std::int64_t kMotion = 8;
-/// Counts by which a motor at its target may be off: more than its regulator leaves, less than one sees.
+/// Counts by which a motor at its target may be off: more than the regulator's residual error, less than is
+/// visible.
 constexpr std::int64_t kApart = 64;
 /// Counts that a target keeps from a limit: a motor that ends on the limit itself may pass it by one.
 constexpr std::int64_t kMargin = 8;
@@ -31,7 +32,7 @@ struct Room {
     bool holds(std::int64_t place) const { return place >= low && place <= high; }
 };
 
-/// What the limits leave to targets.
+/// The range that the limits leave for targets.
 Room room_of(const Facts& f) {
     const std::int64_t low = f.at("MIN_P_IST"), high = f.at("MAX_P_IST");
     const std::int64_t margin = std::min(kMargin, std::max<std::int64_t>(high - low, 0) / 4);
@@ -73,7 +74,7 @@ std::string clear_words(const Facts& f) {
         clear_command(f));
 }
 
-/// Back inside the position limits.
+/// The command to move back inside the position limits.
 std::string way_back(const Facts& f) {
     const std::int64_t low = f.at("MIN_P_IST"), high = f.at("MAX_P_IST");
     const std::string clear = clear_words(f);
@@ -105,7 +106,7 @@ std::string start_words(const Facts& f) {
                        f.text("V_SOLL"));
 }
 
-/// How parameters come back that a file or the flash may still have.
+/// How to restore parameters that a file or the flash may still have.
 std::string restore_words(const Facts& f) {
     return fmt::format(
         "Bring the parameters back: those in the flash by {}, or a file of an earlier dump; as the last "
@@ -113,7 +114,7 @@ std::string restore_words(const Facts& f) {
         service(f, "flash reload"), service(f, "flash defaults"));
 }
 
-/// A supply that is there may be measured against a limit that is wrong.
+/// A supply that is present may be compared with a wrong limit.
 std::string supply_words(const Facts& f) {
     std::string mend = "Switch the power supply on; check voltage, fuse and cross-section.";
     if (f.large() || f.at("U_SUPPLY") < kPlausibleSupply) return mend;
@@ -121,6 +122,38 @@ std::string supply_words(const Facts& f) {
         "If {} is what the supply is to give, the limit is wrong: `macreg set U_MIN_SUP {}V --force`. If "
         "not: {}",
         f.text("U_SUPPLY"), f.at("U_SUPPLY") * 537 / 10'000 * 3 / 4, mend);
+}
+
+/// What ends the gateway's safe state.
+std::string safe_remedy(const Facts& f) {
+    using enum registers::gateway::SafeReason;
+    switch (static_cast<registers::gateway::SafeReason>(f.gateway()->safe_reason)) {
+        case link_down:
+            return "Mend the line to the motor, or switch it on; the sequence goes on once it has sent "
+                   "RESET_ERROR.";
+        case enable_lost:
+            return "Switch the enable input on, then `nanoctl run`.";
+        case bad_table:
+            return "`nanoctl upload` the table again, or `nanoctl run` for the one in use.";
+        case no_proof:
+            return "`nanoctl upload` the table with its certificate: `seqc verify --proof` makes one.";
+        case bad_settings:
+            return "Look at `nanoctl settings list` and keep them with `nanoctl settings set NAME=VALUE "
+                   "--keep`.";
+        case bad_run_mark:
+            return "`nanoctl run` starts it; where that is refused the service must be restarted.";
+        case no_lines:
+        case no_store:
+        case no_port:
+            return "The gateway's journal names what its board lacks, and the gateway tries to have it "
+                   "again.";
+        case bad_set_points:
+            return "Set the set-points anew with `nanoctl set-points`, or `nanoctl run` with those in use.";
+        case motor_stuck:
+            return "Look at the motor's line and supply, then `nanoctl run`.";
+        default:
+            return "`nanoctl run` starts it.";
+    }
 }
 
 const char* level(bool high) {
@@ -153,6 +186,7 @@ constexpr Word kWords[] = {
          using namespace registers::gateway;
          return std::string(name_of(static_cast<SafeReason>(f.gateway()->safe_reason)));
      }},
+    {"safe remedy", safe_remedy},
     {"set load factor",
      [](const Facts& f) -> std::string {
          return f.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."
@@ -270,7 +304,7 @@ bool Facts::runs_away() const {
     constexpr std::int64_t kNoise = 32;
     if (now < before_that - std::max(kNoise, before_that / 32)) return false;  // it brakes
     const std::int64_t asked = mode() == kStop ? 0 : std::abs(at("SPEED"));
-    // The profile may be on its way down still: P_FNC's pace is what it asks for now.
+    // The profile may still be decelerating: P_FNC's rate is the present demand.
     const std::int64_t pace = std::abs(static_cast<std::int32_t>(at("P_FNC") - before("P_FNC")));
     const std::int64_t way =
         std::int64_t{16} * std::abs(static_cast<std::int32_t>(at("P_IST") - before("P_IST")));
@@ -280,7 +314,7 @@ bool Facts::runs_away() const {
 }
 
 bool Facts::has_arrived() const {
-    // P_FNC, not P_IST, is where the profile is: FLWERR lies between (001 §4.4.3).
+    // P_FNC, not P_IST, is the profile's position: they differ by FLWERR (001 §4.4.3).
     return positions() && !moves() && static_cast<std::int32_t>(16 * at("P_SOLL") - at("P_FNC")) == 0;
 }
 
@@ -296,7 +330,7 @@ bool Facts::pushes() const {
     const std::int64_t limit = torque_limit();
     if (limit <= 0 || std::abs(at("VF_OUT")) < limit - limit / 32 || moves()) return false;
     const auto grows = [&](std::string_view name) { return std::abs(at(name)) > std::abs(before(name)); };
-    // In gear modes it is G_FNC, which may stand.
+    // In gear modes it is G_FNC, which may stand still.
     return grows("FLWERR") || grows("FNCERR") || (gears() && at("FNCERR") != 0);
 }
 
@@ -352,7 +386,7 @@ bool Facts::pulse_pins_are_taken() const {
 }
 
 bool Facts::counts_pulses() const {
-    // Other modes leave V_EXT as it was (001 §3.2.120).
+    // Other modes leave V_EXT unchanged (001 §3.2.120).
     if (mode() != kInit && !gears() && mode() != kAnalogueVelocityGear) return false;
     return mode() != kCoil && (at("V_EXT") != 0 || before("V_EXT") != 0);
 }
@@ -391,7 +425,7 @@ std::int64_t Facts::apart() const {
     return at("P_IST") + at("FLWERR") - at("P_FNC") / 16;
 }
 
-/// P_SOLL for this place of P_IST, as near as the register's range allows.
+/// P_SOLL for this position of P_IST, as near as the register's range allows.
 std::int64_t Facts::p_soll_of(std::int64_t place) const {
     const registers::Register& reg = *registers::find(model(), "P_SOLL");
     return std::clamp<std::int64_t>(place - apart(), reg.min, reg.max);

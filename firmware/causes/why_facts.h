@@ -8,22 +8,22 @@
 #include "causes/why.h"
 #include "registers/gateway.h"
 
-/// What the rules of `why` ask of a condition, and the words they use.
+/// What the rules of `why` evaluate of a condition, and the words in their texts.
 namespace nplc::causes {
 
-/// A condition by name and number. Beside registers there are names for what one of them is, as the motor's
-/// mode and family have it: SPEED (V_HOME or V_SOLL), TORQUE (T_HOME or T_SOLL), SUPPLY (U_SUPPLY or U_BUS).
+/// A condition by name and number. In addition to registers there are names whose register depends on the
+/// motor's mode and family: SPEED (V_HOME or V_SOLL), TORQUE (T_HOME or T_SOLL), SUPPLY (U_SUPPLY or U_BUS).
 class Facts {
   public:
     explicit Facts(const Condition& condition) : condition_(condition) {}
 
     bool large() const { return condition_.model == registers::Model::mac800; }
     registers::Model model() const { return condition_.model; }
-    /// 0 of a register that the motor does not have.
+    /// 0 for a register that the motor does not have.
     std::int64_t at(std::string_view name) const { return condition_.now.at(number(name)); }
     std::int64_t before(std::string_view name) const { return condition_.before.at(number(name)); }
     std::uint8_t number(std::string_view name) const;
-    /// As the model's map has it; empty if the motor has none of that name.
+    /// The name in the model's map; empty if the motor has no such register.
     std::string_view name_of(std::string_view name) const;
     bool knows(std::string_view name) const { return number(name) != 0; }
     bool all_zero(std::string_view names) const;
@@ -44,19 +44,19 @@ class Facts {
     bool has_velocity_limit() const;
     /// Both regulators are on.
     bool is_driven() const;
-    /// The torque, the acceleration and so on that a mode needs are looked at: it is in one, or, in
+    /// The torque, acceleration and other parameters of a mode are checked: it is in such a mode, or, in
     /// INIT_MODE, one will be chosen. A gateway's sequence sets what it needs.
     bool has_demands() const;
     bool demands_velocity() const;
     bool moves() const;
-    /// It turns much faster than its mode asks for, and is not slowing down.
+    /// It turns much faster than its mode demands, and is not slowing down.
     bool runs_away() const;
     /// Its profile has reached the target.
     bool has_arrived() const;
-    /// By P_IST, it is elsewhere than its profile.
+    /// By P_IST, its position differs from its profile.
     bool is_apart() const;
     bool lags() const;
-    /// With all the torque that it may use, and stands.
+    /// With its full permitted torque, and stands still.
     bool pushes() const;
 
     /// MIN_P_IST and MAX_P_IST act.
@@ -74,37 +74,39 @@ class Facts {
     bool undervoltage_is_over() const;
     bool undervoltage_stops() const;
     bool coil_is_set_up() const;
-    /// Pulses are to lead it, and none come.
+    /// It is to follow pulses, and none come.
     bool has_no_pulses() const;
     bool pulse_pins_are_taken() const;
     bool counts_pulses() const;
-    /// CNTRL_BITS asks for another user interface than the one that acts (001 §3.2.36).
+    /// CNTRL_BITS selects another user interface than the active one (001 §3.2.36).
     bool user_interface_waits() const;
-    /// A gateway's orders arrive, so FastMAC has the pins, whatever CNTRL_BITS has been set to since the last
-    /// reset.
+    /// A gateway's commands arrive, so FastMAC has the pins, whatever CNTRL_BITS has been set to since the
+    /// last reset.
     bool speaks_fastmac() const;
 
     const std::optional<GatewayState>& gateway() const { return condition_.gateway; }
     bool gateway_has(registers::gateway::StatusBit bit) const;
     bool gateway_is(registers::gateway::RunState state) const;
 
-    /// Of V_SOLL; what is slower looks like standing.
+    /// Of V_SOLL; slower motion looks like standstill.
     std::int64_t tiny_velocity() const { return large() ? 14 : 10; }
     /// 10 V at the analogue input.
     std::int64_t full_voltage() const { return large() ? 2047 : 1023; }
     std::int64_t voltage() const { return std::abs(at("ANINP")); }
     /// That the mode allows, 1023 is full; AT_MODE and passive modes have none.
     std::int64_t torque_limit() const;
-    /// That a move will have: V_SOLL, or what `why` names for one that is next to nothing.
+    /// The velocity of a move: V_SOLL, or the one that `why` recommends if it is almost zero.
     std::int64_t velocity_of_moves() const;
-    /// P_IST less what P_SOLL would be there: both count from one place, unless P_IST was written alone.
+    /// P_IST minus the value that corresponds to P_SOLL: both have the same origin, unless P_IST was written
+    /// alone.
     std::int64_t apart() const;
-    /// P_SOLL for another place that the limits allow: a turn on, a turn back, or as far as there is room.
+    /// P_SOLL for another position that the limits allow: one turn forward, one turn back, or as far as there
+    /// is room.
     std::int64_t other_target() const;
-    /// P_SOLL for where it is, or the nearest place inside.
+    /// P_SOLL for the present position, or the nearest one inside the limits.
     std::int64_t target_here() const;
 
-    /// What has to come before a remedy that lets the motor turn, or it would leave the position limits.
+    /// What must be done before a remedy that lets the motor turn, or it would leave the position limits.
     /// Empty: nothing.
     std::string before_it_turns() const;
 
@@ -114,8 +116,7 @@ class Facts {
     const Condition& condition_;
 };
 
-/// In the order in which causes are to be mended: nothing that stands in a row helps while one before it is
-/// there.
+/// In the order of urgency: no remedy in a row helps while a cause before it exists.
 std::span<const Rule<Facts>> rules();
 
 }  // namespace nplc::causes

@@ -169,10 +169,10 @@ constexpr Rule<Facts> kRules[] = {
      "SPEED_ERR: The motor was faster than it may be.", "ERR_STAT V_SOLL V_IST",
      "Ask for less velocity; look for a load that drives the shaft. Then {clear}."},
 
-    // who gives the orders
+    // who commands the motor
     {"gateway_safe", stops, [](F f) { return f.gateway_has(registers::gateway::kSafe); },
      "The gateway is in its safe state: {safe reason}.", "",
-     "`nanoctl status` names the reason and what ends it.", Lets::nothing, [](F f) { return f.moves(); }},
+     "{safe remedy}", Lets::nothing, [](F f) { return f.moves(); }},
     {"gateway_held", stops,
      [](F f) { return f.gateway_is(RunState::held) || f.gateway_is(RunState::holding); },
      "The gateway's sequence is held, the motor stopped.", "",
@@ -187,10 +187,20 @@ constexpr Rule<Facts> kRules[] = {
      "{MODE_REG}: a mode of the maker's tests, which follows no velocity and no position.", "MODE_REG",
      kOtherModes},
 
-    // what the order is made of
+    // parameters of the command
     {"acceleration_zero", stops, [](F f) { return f.has_demands() && f.at("A_SOLL") == 0; },
      "A_SOLL, the acceleration, is 0: the velocity can never change.", "A_SOLL",
      "`macreg set A_SOLL 10000rpm/s`, for example.", Lets::turn},
+    {"velocity_zero", stops,
+     [](F f) {
+         return f.demands_velocity() && f.at("V_SOLL") == 0 && f.gateway_is(RunState::running) &&
+                !shuts_down_by_supply(f);
+     },
+     "V_SOLL, the velocity or its limit, is 0: the gateway's sequence has stopped the motor and gives it the "
+     "next order itself.",
+     "V_SOLL",
+     "Give its step what it waits for, such as an acknowledgement: `nanoctl status` names the step and what is "
+     "on, `seqc report` what ends it."},
     {"velocity_zero", stops,
      [](F f) { return f.demands_velocity() && f.at("V_SOLL") == 0 && !shuts_down_by_supply(f); },
      "V_SOLL, the velocity or its limit, is 0.", "V_SOLL UV_HANDLE",
@@ -260,7 +270,7 @@ constexpr Rule<Facts> kRules[] = {
      "The voltage at the analogue input is the torque limit, and there is hardly any: {ANINP}.",
      "ANINP T_SOLL", kRaiseVoltage, Lets::turn},
 
-    // the order
+    // the command
     {"safe_mode", stops, [](F f) { return f.mode() == kSafe; },
      "The motor is in SAFE_MODE: passive, and no mode can be chosen.", "MODE_REG",
      "`macreg safe exit`, then choose a mode."},
@@ -283,7 +293,7 @@ constexpr Rule<Facts> kRules[] = {
      "It will not go there by itself. To go on from here with one count for all: `{resynchronise}`; the shaft "
      "does not turn by it."},
 
-    // what holds the shaft
+    // the shaft is held
     {"blocked", stops, [](F f) { return f.pushes() && f.torque_limit() >= 1000; },
      "The motor pushes with its full torque ({VF_OUT}) and stands: its shaft is blocked, or the load is too "
      "heavy.",
@@ -338,7 +348,7 @@ constexpr Rule<Facts> kRules[] = {
      "MODE_REG T_HOME V_HOME VF_OUT",
      "If it stands before its stop, T_HOME is too small for the friction; INIT_MODE ends the search."},
 
-    // what stops nothing yet
+    // stops nothing yet
     {"undervoltage_recent", hinders, [](F f) { return f.undervoltage_is_over(); },
      "The supply was too low a moment ago; it is {SUPPLY} now.", "ERR_STAT SUPPLY U_MIN_SUP",
      "Ask again in a second; if it comes back, the supply sags under load."},
@@ -382,7 +392,7 @@ constexpr Rule<Facts> kRules[] = {
     pointer("L_REG_P", [](F f) { return f.at("L_REG_P") != 0; }),
     pointer("Z_REG_P", [](F f) { return f.at("Z_REG_P") != 0; }),
 
-    // good to know
+    // information
     {"gateway_runs", tells,
      [](F f) {
          return f.gateway() && !f.gateway_is(RunState::stopped) && !f.gateway_is(RunState::held) &&

@@ -36,7 +36,7 @@ std::uint32_t FirmwareUpdate::state() const {
 }
 
 std::uint32_t FirmwareUpdate::value(std::uint8_t reg) const {
-    const update::SlotView& slot = receiver_->slot(reg & 1U);  // both pairs begin with an even number
+    const update::SlotView& slot = receiver_->slot(reg & 1U);  // both register pairs begin at an even number
     switch (reg) {
         case FIRMWARE_BOARD:
             return receiver_->board();

@@ -31,9 +31,9 @@ void Gateway::block_start(SafeReason reason) {
     stop_motor();
 }
 
-void Gateway::wait_for_first_run() {
-    waits_for_first_run_ = true;
-    block_start(SafeReason::not_started);
+void Gateway::wait_for_mark(SafeReason reason) {
+    waits_because_ = reason;
+    block_start(reason);
 }
 
 void Gateway::block(SafeReason reason) {
@@ -83,7 +83,8 @@ void Gateway::look_for_proof() {
     }
 }
 
-/// The pin itself, since nothing was debounced yet. Without it nothing stays armed.
+/// Reads the pin directly, since nothing is debounced yet. If the enable input is off, no automatic start
+/// stays pending.
 void Gateway::autostart(base::Instant now) {
     signals_.read(now);
     const base::Status started = run();
@@ -122,11 +123,11 @@ base::Status Gateway::run_until(After hold_after) {
     if (!enabled()) return base::Error::not_enabled;
     if (needs_proof()) return base::Error::no_proof;
     if (stop_unconfirmed()) return base::Error::stop_unconfirmed;
-    waits_for_first_run_ = false;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;
         run_state_ = RunState::waiting_for_motor;
+        is_mark_refused_ = false;
     } else {
         if (!can_go_on()) return base::Error::cannot_go_on;
         if (!settings_.virtual_motor && !scan_.mode().is_passive())
@@ -150,7 +151,7 @@ void Gateway::make_safe(base::Instant now) {
     enter_safe_state(SafeReason::safe_command, now);
 }
 
-/// By itself, so that its stack is not the board's loop's.
+/// Not inlined, so that its stack is not part of the board's main loop.
 [[gnu::noinline]] void Gateway::poll(base::Instant now) {
     scan_.wake(now);
     log_.advance(now);
@@ -164,7 +165,7 @@ void Gateway::make_safe(base::Instant now) {
     motor_.begin_orders(now);
 }
 
-/// What a stopped gateway is busy with, such as erasing flash, holds up nothing that moves.
+/// Late polls of a stopped gateway, such as during a flash erase, are not logged, since nothing moves.
 void Gateway::watch_polls(base::Instant now) {
     const std::uint32_t late = polls_.begin(now);
     if (late <= settings_.poll_limit || run_state_ == RunState::stopped) return;
@@ -192,6 +193,7 @@ void Gateway::serve_sequence(base::Instant now) {
 }
 
 void Gateway::start_when_ready(base::Instant now) {
+    if (is_mark_refused_) return enter_safe_state(SafeReason::bad_run_mark, now);
     if (!motor::delivers(motor_.link())) {
         stop_ordered_ = false;
         return;
@@ -200,7 +202,7 @@ void Gateway::start_when_ready(base::Instant now) {
         stop_motor();
         stop_ordered_ = true;
     }
-    if (!motor_.settled()) return;
+    if (needs_mark() || !motor_.settled()) return;
     run_state_ = RunState::running;
     settings_.on_start == OnStart::stop ? scan_.mode().set_passive() : scan_.mode().forget();
     stop_after_loss_ = false;
@@ -211,7 +213,7 @@ void Gateway::start_when_ready(base::Instant now) {
     if (hold_.breaks_at(state().step)) begin_hold(true, now);
 }
 
-/// Only a finished scan feeds the watchdog.
+/// Only a finished or skipped scan feeds the watchdog.
 void Gateway::scan(base::Instant now) {
     scan_.count_timer(now);
     if (!hold_.is_at_once()) hold_asked_ = now;
@@ -250,8 +252,8 @@ void Gateway::begin_hold(bool breakpoint, base::Instant now) {
     run_state_ = RunState::holding;
 }
 
-/// The orders of the last scan first, then the stop, which would drop them. What keeps the motor busy for
-/// longer than kLongestSettling is dropped, and the sequence cannot go on from there.
+/// Lets the orders of the last scan finish before the stop, which would drop them. Orders that keep the motor
+/// busy for longer than kLongestSettling are dropped, and the sequence cannot continue from there.
 void Gateway::hold_when_settled(base::Instant now) {
     if (!motor_.settled()) {
         if (scan_.waits_too_long(settings_.longest_wait, now))
@@ -270,7 +272,8 @@ void Gateway::hold_when_settled(base::Instant now) {
     note(hold_.at_breakpoint() ? Event::breakpoint : Event::held, can_go_on() ? 0 : kCannotGoOn);
 }
 
-/// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged.
+/// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged the
+/// error.
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = motor_.link();
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
@@ -359,7 +362,7 @@ void Gateway::expire_forces(base::Instant now) {
     note(Event::forces_ended, kBySilence);
 }
 
-/// The safe values, or what the sequence wrote under what is forced; and the lamp, if there is one.
+/// The safe values, or the sequence's outputs with forces applied; and the status lamp, if there is one.
 void Gateway::show_outputs() {
     unsigned levels =
         safe_reason() == SafeReason::none ? forces().outputs().over(state().outputs) : settings_.safe_outputs;
@@ -392,9 +395,10 @@ base::Instant Gateway::next_work(base::Instant now) const {
         case RunState::held:
             return base::kNever;
         case RunState::waiting_for_motor: {
+            if (is_mark_refused_) return now;
             if (!motor::delivers(motor_.link())) return base::kNever;
             const bool has_to_stop = settings_.on_start == OnStart::stop && !stop_ordered_;
-            return has_to_stop || motor_.settled() ? now : base::kNever;
+            return has_to_stop || (!needs_mark() && motor_.settled()) ? now : base::kNever;
         }
         case RunState::holding:
             if (motor_.settled()) return now;

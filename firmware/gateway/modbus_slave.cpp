@@ -15,7 +15,7 @@ using protocol::modbus::Space;
 
 namespace {
 
-/// A value of the gateway as it stands in input registers.
+/// A value of the gateway, as it is laid out in input registers.
 struct Row {
     std::uint8_t address;
     std::uint8_t words;
@@ -49,7 +49,7 @@ constexpr Row kRows[] = {
     {map::kLatePolls, 2, LATE_POLLS, 0, kAll},
 };
 
-/// Of STATUS, for discrete inputs; 0: another condition.
+/// Bits of STATUS that discrete inputs show; 0: another condition.
 constexpr std::uint32_t kStatusOfDiscrete[map::kDiscretes] = {0,
                                                               0,
                                                               0,
@@ -103,7 +103,7 @@ std::span<const std::uint8_t> ModbusSlave::out(base::Instant now, std::uint32_t 
     return std::span(out_).first(size_).subspan(sent_);
 }
 
-// An answer is put together where it goes out from: a copy would be in the way of the loop's stack.
+// An answer is built in the send buffer: a copy would take stack from the main loop.
 
 void ModbusSlave::begin_answer(std::uint8_t function) {
     size_ = sent_ = 0;
@@ -129,7 +129,7 @@ ModbusSlave::Need ModbusSlave::refuse_with(Exception exception) {
     return end_answer();
 }
 
-/// The request's own bytes, which the reader has until the next one.
+/// Copies the request's bytes, which the reader keeps until the next one.
 ModbusSlave::Need ModbusSlave::echo() {
     constexpr std::size_t kEchoed = 5;
     begin_answer(request_.function);
@@ -225,7 +225,7 @@ std::uint16_t ModbusSlave::input_word(std::uint16_t address, base::Instant now) 
 
 ModbusSlave::Need ModbusSlave::read(base::Instant now) {
     constexpr std::uint16_t kEnds[] = {map::kResetError, map::kDiscretes, map::kLatePolls + 2, map::kRecipe};
-    constexpr std::uint16_t kNothing = map::kImageAge + 1;  // between two rows
+    constexpr std::uint16_t kNothing = map::kImageAge + 1;  // gap between two rows
     const unsigned end = request_.address + request_.count;
     const bool has_gap =
         request_.space == Space::input_register && request_.address <= kNothing && end > kNothing;
@@ -265,7 +265,7 @@ ModbusSlave::Need ModbusSlave::command(std::uint16_t value) {
     return write_own(COMMAND, value);
 }
 
-/// A level of 1 stops; all else goes by the change from 0. One command at a time.
+/// A stop acts on level 1; all other coils act on the change from 0 to 1. One command at a time.
 ModbusSlave::Need ModbusSlave::write_coils() {
     if (request_.address + request_.count > map::kResetError) return refuse_with(Exception::illegal_address);
     std::uint8_t stop = 0;
@@ -326,7 +326,7 @@ ModbusSlave::Need ModbusSlave::write_holding(base::Instant now) {
     return echo();
 }
 
-/// One register of the motor in a request.
+/// Reads or writes one motor register per request.
 ModbusSlave::Need ModbusSlave::use_window() {
     const unsigned place = request_.address - unsigned{map::kMotorWindow};
     if (place % 2 != 0 || place < 2 || place >= map::kMotorWindowEnd - unsigned{map::kMotorWindow})
@@ -366,7 +366,7 @@ void ModbusSlave::end_write(const Progress& outcome) {
         refuse_with(exception_of(static_cast<Result>(result_)));
 }
 
-/// A read has the register's bytes; of a write nothing.
+/// `data`: the register's bytes after a read; empty after a write.
 void ModbusSlave::end_motor(std::span<const std::uint8_t> data) {
     if (request_.writes) {
         echo();

@@ -40,7 +40,7 @@ std::size_t MotorBridge::wanted_bytes() const {
     return request_.kind == Kind::read_block ? mactalk::kBlockBytes : mactalk::kReadBytes;
 }
 
-/// Nothing for what lies beyond register 255.
+/// Empty beyond register 255.
 std::optional<motor::Access> MotorBridge::next_access() const {
     if (!is_read()) {
         return motor::Access{.is_write = true,
@@ -83,7 +83,7 @@ MotorBridge::State MotorBridge::take(base::Instant now) {
             asked_ = false;
             ended_ = now;
             ++failures_;
-            // A write that failed may have been executed: it is not repeated.
+            // A failed write may have been executed: it is not repeated.
             return is_read() && failures_ < kMostFailures ? State::under_way : State::failed;
         case motor::AccessState::done:
             break;

@@ -9,7 +9,7 @@ using protocol::fastmac::command_byte;
 using protocol::fastmac::Number;
 
 /// An error that no scan saw may have ended a motion before "reset error", and a home search ends in a mode
-/// of the motor's own choice.
+/// that the motor chooses: the mode is unknown then.
 void MotorMode::follow(const sequencer::MotorOrder& order) {
     constexpr std::uint8_t kPosition = 2;
     constexpr std::uint8_t kCommandMode = 3;

@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t kRegisterBytes = 4;
 
-constexpr std::uint32_t bit(bool on, StatusBit which) {
-    return on ? std::uint32_t{which} : 0U;
-}
-
 std::uint32_t in_milliseconds(base::Microseconds time) {
     return (static_cast<std::uint32_t>(time.count()) + 999U) / 1000U;
 }
@@ -191,21 +187,28 @@ std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {
     return std::min(faults.framing, kMost) | (std::min(faults.overruns, kMost) << 16);
 }
 
+/// From the highest bit down, each shifted into its place: nothing has to be kept beside.
 std::uint32_t OwnRegisters::status() const {
+    static_assert(kStopUnconfirmed == 1U << 19 && kLinkDelivers == 1U << 3 && kRunState == 7);
     const motor::Motor& motor = gateway_.motor();
-    const bool has_stored = tables_.stored().length != 0;
-    return static_cast<std::uint32_t>(gateway_.run_state()) |
-           bit(motor::delivers(motor.link()), kLinkDelivers) | bit(motor.error(), kMotorError) |
-           bit(motor.in_position(), kInPosition) | bit(gateway_.safe_reason() != SafeReason::none, kSafe) |
-           bit(gateway_.forces().inputs().mask != 0, kForcedInputs) |
-           bit(gateway_.forces().outputs().mask != 0, kForcedOutputs) |
-           bit(gateway_.breakpoints() != 0, kBreakpoints) | bit(gateway_.at_breakpoint(), kAtBreakpoint) |
-           bit(!gateway_.table().empty(), kTable) | bit(tables_.uploads(), kUpload) |
-           bit(has_stored && !tables_.stored_is_active(), kStoredDiffers) |
-           bit(settings_.differ(), kSettingsDiffer) | bit(gateway_.enabled(), kEnabled) |
-           bit(gateway_.settings().virtual_motor, kVirtualMotor) | bit(gateway_.has_single(), kSingle) |
-           bit(gateway_.run_state() == RunState::held && !gateway_.can_go_on(), kCannotGoOn) |
-           bit(gateway_.stop_unconfirmed(), kStopUnconfirmed);
+    std::uint32_t bits = gateway_.stop_unconfirmed() ? 1U : 0U;
+    bits = 2 * bits + (gateway_.run_state() == RunState::held && !gateway_.can_go_on() ? 1U : 0U);
+    bits = 2 * bits + (gateway_.has_single() ? 1U : 0U);
+    bits = 2 * bits + (gateway_.settings().virtual_motor ? 1U : 0U);
+    bits = 2 * bits + (gateway_.enabled() ? 1U : 0U);
+    bits = 2 * bits + (settings_.differ() ? 1U : 0U);
+    bits = 2 * bits + (tables_.stored().length != 0 && !tables_.stored_is_active() ? 1U : 0U);
+    bits = 2 * bits + (tables_.uploads() ? 1U : 0U);
+    bits = 2 * bits + (!gateway_.table().empty() ? 1U : 0U);
+    bits = 2 * bits + (gateway_.at_breakpoint() ? 1U : 0U);
+    bits = 2 * bits + (gateway_.breakpoints() != 0 ? 1U : 0U);
+    bits = 2 * bits + (gateway_.forces().outputs().mask != 0 ? 1U : 0U);
+    bits = 2 * bits + (gateway_.forces().inputs().mask != 0 ? 1U : 0U);
+    bits = 2 * bits + (gateway_.safe_reason() != SafeReason::none ? 1U : 0U);
+    bits = 2 * bits + (motor.in_position() ? 1U : 0U);
+    bits = 2 * bits + (motor.error() ? 1U : 0U);
+    bits = 2 * bits + (motor::delivers(motor.link()) ? 1U : 0U);
+    return bits << 3 | static_cast<std::uint32_t>(gateway_.run_state());
 }
 
 void OwnRegisters::take_fired() {

@@ -1,4 +1,4 @@
-// What a write to one of the gateway's own registers does.
+// Effects of writes to the gateway's own registers.
 #include <algorithm>
 
 #include "base/bytes.h"
@@ -17,6 +17,27 @@ CommandResult command_result_of(const base::Status& status) {
     return {status ? Result::done : result_of(status.error())};
 }
 
+struct Numbers {
+    std::uint8_t first;
+    std::uint8_t last;
+};
+
+/// The registers that there are, below the settings.
+constexpr std::array<Numbers, 5> kKnown{{
+    {IDENTITY, STOP_SINCE},
+    {UPLOAD_STATE, PROOF + kProofWords - 1},
+    {FIRED_SCAN, SetPointsPart::kIsThere ? SET_POINT_DATA : FIRED_KEY},
+    {FIRED, SetPointsPart::kIsThere ? SET_POINT_WANTED + kSetPoints - 1 : LOG + 2 * kLogEntries - 1},
+    {FIRMWARE_BOARD, FirmwarePart::kIsThere ? FIRMWARE_DATA - 1 : FIRMWARE_BOARD - 1},
+}};
+
+bool is_known(std::uint8_t number) {
+    for (const Numbers& known : kKnown) {
+        if (number >= known.first && number <= known.last) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 void OwnRegisters::poll() {
@@ -33,6 +54,8 @@ base::Instant OwnRegisters::next_poll(base::Instant now) {
         case Waiting::nothing:
         case Waiting::saving:
             break;
+        case Waiting::mark:
+            return gateway_.wants_mark() ? next : now;
         case Waiting::room:
             return std::min(next, write_begun_ + kLongestWait + base::Microseconds(1));
         case Waiting::activation:
@@ -84,6 +107,9 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
         }
         case Waiting::saving:
             return settings_.poll_save();
+        case Waiting::mark:
+            if (gateway_.wants_mark()) return std::nullopt;
+            return CommandResult{gateway_.is_mark_refused() ? Result::storage_failed : Result::done};
         case Waiting::nothing:
             break;
     }
@@ -101,14 +127,6 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
 }
 
 Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
-    const auto is_known = [](std::uint8_t number) {
-        return (number >= IDENTITY && number <= STOP_SINCE) ||
-               (number >= UPLOAD_STATE && number < PROOF + kProofWords) ||
-               (number >= FIRED_SCAN && number <= (kHasSetPoints ? SET_POINT_DATA : FIRED_KEY)) ||
-               (number >= FIRED && number < LOG + 2 * kLogEntries) ||
-               (kHasSetPoints && number >= SET_POINT && number < SET_POINT_WANTED + kSetPoints) ||
-               (kHasFirmware && number >= FIRMWARE_BOARD && number < FIRMWARE_DATA);
-    };
     constexpr std::uint64_t kLow = 0xFFFF'FFFF;
     switch (reg) {
         case SCAN_WORST:
@@ -169,11 +187,11 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
     const auto command = static_cast<Command>(value);
     switch (command) {
         case Command::run:
-            return command_result_of(gateway_.run());
+            return started(gateway_.run());
         case Command::scan:
-            return command_result_of(gateway_.scan_once());
+            return started(gateway_.scan_once());
         case Command::step:
-            return command_result_of(gateway_.step_once());
+            return started(gateway_.step_once());
         case Command::hold:
             return CommandResult{gateway_.hold() ? Result::done : Result::not_running};
         case Command::stop:
@@ -210,6 +228,16 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
     return CommandResult{Result::bad_value};
 }
 
+/// In service, where it is refused, it is marked for the next start.
+Progress OwnRegisters::started(const base::Status& status) {
+    if (!gateway_.needs_mark() || !(status.ok() || gateway_.is_in_service()))
+        return command_result_of(status);
+    settings_.begin_mark();
+    if (!status) return command_result_of(status);
+    waiting_ = Waiting::mark;
+    return std::nullopt;
+}
+
 /// The board may stand still for an erasure: only while nothing can run.
 CommandResult OwnRegisters::firmware_command(Command command) {
     if (command == Command::firmware_abort) return firmware_.abandon();
@@ -229,7 +257,7 @@ Progress OwnRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
     return std::nullopt;
 }
 
-/// After it the stored table is the active one, which it becomes only while the motor stands still.
+/// After a reset the stored table becomes the active one, which is allowed only while the motor stands still.
 Progress OwnRegisters::reset(base::Instant now) {
     if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
     if (tables_.stored().length != 0 && !tables_.stored_is_active()) {

@@ -48,7 +48,7 @@ void SequenceScan::count_timer(base::Instant now) {
         times_.interrupt();
     }
     constexpr base::Milliseconds kLongestTimer{65'535};
-    if (now - ticked_ > kLongestTimer) ticked_ = now - kLongestTimer;  // the timer is at 0 then in any case
+    if (now - ticked_ > kLongestTimer) ticked_ = now - kLongestTimer;  // the timer is 0 in any case
     const std::uint32_t milliseconds = static_cast<std::uint32_t>((now - ticked_).count()) / 1000U;
     if (milliseconds == 0) return;
     ticked_ += base::Milliseconds(milliseconds);
@@ -65,7 +65,7 @@ void SequenceScan::count_timer(base::Instant now) {
     return Result::finished;
 }
 
-/// A scan is under way then, unless it waits for the motor or can change nothing.
+/// Begins a scan, unless the motor is not ready or nothing can change.
 SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now) {
     if (now < next_scan_) return Result::waiting;
     const bool was_idle = std::exchange(idle_, false);
@@ -89,7 +89,7 @@ SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now)
     return Result::waiting;
 }
 
-/// Not in the middle of a move, nor while what is written would be lost. POWER_UP writes all by itself.
+/// Not during a move, nor while a written value would be lost. POWER_UP writes all values itself.
 bool SequenceScan::may_take_values() const {
     if constexpr (NPLC_SET_POINTS == 0) return false;
     const std::uint8_t step = engine_.state().step;
@@ -99,7 +99,7 @@ bool SequenceScan::may_take_values() const {
     return !moves && !motor_.error() && motor_.link() == motor::Link::up;
 }
 
-/// True while the motor has to take one of them.
+/// True while the motor still has to take a value.
 bool SequenceScan::take_values(base::Instant now) {
     if (!may_take_values()) return false;
     const auto order = values_->take(engine_.state().step);
@@ -115,7 +115,7 @@ sequencer::InputImage SequenceScan::present_image(std::uint8_t inputs) const {
                                               (motor_.error() ? sequencer::kError : 0));
 }
 
-/// False while an order has to wait for room.
+/// False while an order waits for room.
 bool SequenceScan::send_orders(base::Instant now) {
     for (;;) {
         if (!waiting_order_) waiting_order_ = engine_.next();
@@ -152,8 +152,8 @@ base::Instant SequenceScan::next_poll(std::uint8_t inputs, base::Microseconds lo
     if (in_scan_) return motor_.has_room() ? now : patience(longest_wait);
     if (!motor_.settled()) return idle_ ? now : patience(longest_wait);
     if (may_take_values()) return std::max(now, next_scan_);
-    // At once unless a scan would do nothing; else when the timer is 0, the only part of a key that nobody
-    // brings.
+    // At once unless a scan would change nothing; else when the timer reaches 0, the only part of the key
+    // that changes without an event.
     if (unchanged_key_ != engine_.key(present_image(inputs))) return std::max(now, next_scan_);
     const std::uint16_t timer = engine_.state().timer;
     return timer == 0 ? base::kNever : ticked_ + base::Milliseconds(timer);

@@ -1,4 +1,4 @@
-// What a write to SET_POINT_WRITE asks for: checked whole, stored whole, then wanted.
+// A write to SET_POINT_WRITE: checked as a whole, stored as a whole, then wanted.
 #include <algorithm>
 
 #include "base/bytes.h"
@@ -58,7 +58,7 @@ CommandResult SetPoints::read_request(std::span<const std::uint8_t> bytes, Reque
     return find_recipe(request, saves);
 }
 
-/// All of them, before anything is changed.
+/// Checks all values before anything is changed.
 CommandResult SetPoints::check_values(const Request& request) const {
     std::size_t at = 0;
     for (std::size_t i = 0; i < record_.count(); ++i) {
@@ -73,7 +73,7 @@ CommandResult SetPoints::check_values(const Request& request) const {
     return {};
 }
 
-/// By its name, as things stand now; a new one gets the first free number.
+/// Finds the recipe by its current name; a new one gets the first free number.
 CommandResult SetPoints::find_recipe(Request& request, bool saves) {
     store::SetPointImage& image = store_.image();
     std::uint8_t number = request.recipe;
@@ -91,7 +91,7 @@ CommandResult SetPoints::find_recipe(Request& request, bool saves) {
     return {};
 }
 
-/// Into the image that is stored next, and `after_`.
+/// Writes the request into the image to be stored next, and into `after_`.
 void SetPoints::prepare(Request& request) {
     store::SetPointImage& image = store_.image();
     after_ = wanted_;
@@ -163,7 +163,7 @@ CommandResult SetPoints::begin_request(std::span<const std::uint8_t> bytes, Orig
     return {};
 }
 
-/// Whether somebody still waits for it or not.
+/// Completes a request, whether its client still waits or not.
 void SetPoints::end_request() {
     const bool failed = store_.phase() == store::Phase::failed;
     if (!saving_ || (!failed && store_.phase() != store::Phase::done)) return;
@@ -179,7 +179,7 @@ void SetPoints::end_request() {
         finish_request();
 }
 
-/// It is stored: from here on it is what is wanted.
+/// The request is stored: its values are now the wanted ones.
 void SetPoints::finish_request() {
     const auto who = static_cast<std::uint16_t>(static_cast<unsigned>(request_.origin) << 8);
     const auto recipe = static_cast<std::uint16_t>(who | request_.recipe);

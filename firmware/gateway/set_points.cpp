@@ -24,7 +24,7 @@ void SetPoints::mount() {
     if (damaged_) gateway_.note(Event::store_damaged);
 }
 
-/// A value that was kept for another table holds if the name is the same, the unit, and the range has it.
+/// A value stored for another table is kept if name and unit are the same and the range contains it.
 void SetPoints::use(std::span<std::uint8_t> table, std::span<const std::uint8_t> record) {
     ++edition_;
     table_ = table;
@@ -44,7 +44,7 @@ void SetPoints::use(std::span<std::uint8_t> table, std::span<const std::uint8_t>
     take_all();
 }
 
-/// Defaults where the set has no value that fits, a bit for each.
+/// Uses the default where the set has no valid value; returns a bit mask of these.
 std::uint16_t SetPoints::find_values(store::ValueSet set, Values& values) const {
     std::uint16_t missing = 0;
     for (std::size_t i = 0; i < record_.count(); ++i) {
@@ -94,7 +94,7 @@ bool SetPoints::has_change(std::uint8_t step) const {
                         in_force_.begin()));
 }
 
-/// POWER_UP writes all of them itself.
+/// In step 0 nothing is returned: POWER_UP writes all values itself.
 std::optional<sequencer::MotorOrder> SetPoints::take(std::uint8_t step) {
     if (to_write_ == 0) take_all();
     if (step == 0) to_write_ = 0;
@@ -108,7 +108,7 @@ std::optional<sequencer::MotorOrder> SetPoints::take(std::uint8_t step) {
     return std::nullopt;
 }
 
-/// A run begins at POWER_UP, which writes the values.
+/// While stopped, changes take effect at once: a run begins at POWER_UP, which writes the values.
 void SetPoints::poll() {
     if (!available_) return;
     store_.poll();
@@ -215,16 +215,11 @@ void SetPoints::read_window(std::span<std::uint8_t> out) {
 }
 
 void SetPoints::view_changes(std::size_t offset, std::span<std::uint8_t> out) const {
-    for (std::size_t at = 0; at + kChangeBytes <= out.size(); at += kChangeBytes) {
-        const std::size_t age = (offset + at) / kChangeBytes;
-        if (age >= shown_changes()) return;
-        const Change& one = change(age);
-        base::store_u32(&out[at], one.milliseconds);
-        out[at + 4] = one.index;
-        out[at + 5] = static_cast<std::uint8_t>(one.origin);
-        out[at + 6] = one.recipe;
-        base::store_u32(&out[at + 8], static_cast<std::uint32_t>(one.before));
-        base::store_u32(&out[at + 12], static_cast<std::uint32_t>(one.now));
+    const std::size_t end = shown_changes() * kChangeBytes;
+    for (std::uint8_t& byte : out) {
+        if (offset >= end) return;
+        byte = reinterpret_cast<const std::uint8_t*>(&change(offset / kChangeBytes))[offset % kChangeBytes];
+        ++offset;
     }
 }
 

@@ -92,10 +92,12 @@ void SettingsManager::attach(Gateway& gateway) {
 Result SettingsManager::set(std::uint8_t id, std::uint32_t value) {
     if (!registers::gateway::is_setting(id)) return Result::no_register;
     if (gateway_->run_state() != RunState::stopped) return Result::not_stopped;
-    store::SettingValues values = values_;
-    if (!values.set(store::Setting{id}, value)) return Result::bad_value;
-    if (values.get(Setting::gateway_address) == values.get(Setting::motor_address)) return Result::bad_value;
-    values_ = values;
+    const std::uint32_t before = values_.get(Setting{id});
+    if (!values_.set(Setting{id}, value)) return Result::bad_value;
+    if (values_.get(Setting::gateway_address) == values_.get(Setting::motor_address)) {
+        static_cast<void>(values_.set(Setting{id}, before));
+        return Result::bad_value;
+    }
     static_cast<void>(gateway_->change(settings_of(values_)));
     return Result::done;
 }
@@ -103,8 +105,33 @@ Result SettingsManager::set(std::uint8_t id, std::uint32_t value) {
 void SettingsManager::begin_save() {
     if (is_saving_ && saving_ == values_) return;
     saving_ = values_;
+    begin_saving();
+}
+
+void SettingsManager::begin_saving() {
     begun_ = store_.save(saving_);
     is_saving_ = begun_.ok();
+}
+
+/// What is being stored already is stored with it. Damaged settings are stored by nobody but the user.
+void SettingsManager::store_wait(SafeReason reason) {
+    if (damaged_) return;
+    if (!is_saving_) saving_ = stored_;
+    for (store::SettingValues* values : {&saving_, &values_})
+        static_cast<void>(values->set(Setting::waits_for_run, static_cast<std::uint32_t>(reason)));
+    begin_saving();
+}
+
+void SettingsManager::keep_mark(bool is_after_crash) {
+    keeps_mark_ = true;
+    const SafeReason reason = is_after_crash ? SafeReason::watchdog : stored_wait();
+    if (reason == SafeReason::none) return;
+    gateway_->wait_for_mark(reason);
+    if (reason != stored_wait()) store_wait(reason);
+}
+
+void SettingsManager::begin_mark() {
+    if (keeps_mark_) store_wait(SafeReason::none);
 }
 
 Progress SettingsManager::poll_save() const {
@@ -118,9 +145,10 @@ void SettingsManager::poll() {
     store_.poll();
     if (!is_saving_ || store_.phase() < store::Phase::done) return;
     is_saving_ = false;
-    if (store_.phase() == store::Phase::failed) return;
+    if (store_.phase() == store::Phase::failed) return gateway_->refuse_run_mark();
     stored_ = saving_;
     damaged_ = false;
+    if (stored_wait() == SafeReason::none) gateway_->mark_run();
     gateway_->unlock(SafeReason::bad_settings);
     gateway_->note(Event::settings_kept);
 }

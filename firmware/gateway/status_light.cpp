@@ -30,7 +30,7 @@ bool is_fault(SafeReason reason) {
 constexpr std::uint32_t kBeat = 125;  // ms
 constexpr std::uint32_t kBeats = 16;
 
-/// One bit for each beat of two seconds, the first one lowest.
+/// One bit per beat over two seconds, the first beat in bit 0.
 std::uint32_t beats(RunState run_state, SafeReason reason) {
     if (is_fault(reason)) return 0b0000'0000'0101'0101;
     switch (run_state) {

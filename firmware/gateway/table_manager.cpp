@@ -12,7 +12,7 @@ using store::Phase;
 
 namespace {
 
-/// What follows the end term.
+/// The bytes behind the end term.
 std::span<const std::uint8_t> behind_end_of(std::span<const std::uint8_t> content) {
     std::size_t end = 0;
     while (end < content.size() && (content[end] & 0x3FU) != sequencer::kEndOfTable)
@@ -20,7 +20,7 @@ std::span<const std::uint8_t> behind_end_of(std::span<const std::uint8_t> conten
     return content.subspan(std::min(end + sequencer::kTermBytes, content.size()));
 }
 
-/// The mark and the digest, if there is nothing but them.
+/// Mark and digest of the certificate, if `bytes` holds nothing else.
 std::span<const std::uint8_t> proof_in(std::span<const std::uint8_t> bytes) {
     using namespace registers::gateway;
     const bool is_one =
@@ -35,7 +35,7 @@ void TableManager::mount() {
     if (!is_readable_ || slots_.is_fallback()) gateway_.note(Event::store_damaged);
 }
 
-/// A store that held a table and has none that is whole is a bad table, not a new board.
+/// A damaged store is reported as a bad table, not as an empty board.
 CommandResult TableManager::start(base::Instant now) {
     CommandResult outcome = Result::nothing_stored;
     if (slots_.has_current() || slots_.is_fallback()) {

@@ -13,10 +13,10 @@ using mactalk::Request;
 namespace {
 
 constexpr int kReadsPerPoll = 16;
-/// The motor's own line: no manual says how long it may take to answer.
+/// Timeout of the motor's own line. No manual gives the motor's longest answer time.
 constexpr base::Microseconds kMotorAnswers{1'000'000};
 
-/// At a port that was full, and at the motor's own, of which it is not told when something comes.
+/// Poll interval for a port that was full, and for the motor's own port, which does not signal received data.
 constexpr base::Microseconds kLook{1'000};
 
 constexpr std::uint32_t kMayWrite = 1;
@@ -28,7 +28,7 @@ bool only_reads(Kind kind) {
 
 }  // namespace
 
-/// By itself, so that its stack is not the board's loop's.
+/// Not inlined, so that its stack is not part of the board's main loop.
 [[gnu::noinline]] void UserPort::poll(base::Instant now) {
     if (line_ == nullptr) return;
     decoder_.take_long_writes(static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address)));
@@ -104,8 +104,7 @@ void UserPort::begin(const Request& request, base::Instant now) {
     own ? begin_own(request, now) : begin_motor(request, now);
 }
 
-/// In the other of the two languages that the line may speak; as any message it ends the wait for the one
-/// before.
+/// A Modbus request. Like any message it ends the wait for the answer to the one before.
 [[gnu::noinline]] void UserPort::begin_modbus(base::Instant now) {
     ++own_.port().messages;
     drop();
@@ -133,7 +132,7 @@ void UserPort::drop() {
     out_.size = sent_ = 0;
 }
 
-/// What is being stored of set-points ends as it ends.
+/// A set-point request that is already being stored is not cancelled.
 void UserPort::cancel_own_write() {
     const bool waits_to_set = serving_ == Serving::set_points && set_points_.request == 0;
     if (serving_ != Serving::own_write && !waits_to_set) return;
@@ -157,7 +156,7 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
             data_size_ = decoder_.data().size();
             std::copy(decoder_.data().begin(), decoder_.data().end(), data_.begin());
             if (SetPointsPart::kIsThere && request.reg == registers::gateway::SET_POINT_WRITE) {
-                set_points_ = {Origin::user_port, now};
+                set_points_.begin(Origin::user_port, now);
                 serving_ = Serving::set_points;
                 return;
             }
@@ -182,7 +181,7 @@ void UserPort::begin_motor(const Request& request, base::Instant now) {
     serving_ = Serving::motor;
 }
 
-/// A MAC800 takes longwords only. Reads are always allowed.
+/// A MAC800 accepts longwords only. Reads are always allowed.
 bool UserPort::motor_allows(const Request& request) const {
     if (only_reads(request.kind)) return true;
     if (request.kind == Kind::write && gateway_.motor().longwords_only() && request.length != 4) return false;
@@ -251,7 +250,7 @@ void UserPort::serve_motor(base::Instant now) {
     }
 }
 
-/// Bytes as they come: what the motor answers is its own affair.
+/// Passes the motor's bytes on unchecked.
 void UserPort::pass_back(base::Instant now) {
     transmit_to_motor();
     if (now - begun_ > kMotorAnswers) return drop();

@@ -5,18 +5,12 @@
 namespace nplc::motor {
 namespace {
 
-constexpr base::Microseconds kQuick{50'000};
-constexpr base::Microseconds kSlow{500'000};
-constexpr std::uint8_t kQuickOnes = 20;
 constexpr std::uint8_t kWayBack = 3;
 
 }  // namespace
 
 protocol::flexmac::Encoded BlindStop::take_part(bool longword, base::Instant now) {
-    if (part_ == 0) {
-        due_ = now + (count_ < kQuickOnes ? kQuick : kSlow);
-        if (count_ < kQuickOnes) ++count_;
-    }
+    if (part_ == 0) due_ = now + pace_.next();
     const std::uint8_t part = part_++;
     if (part == 0) return {.bytes = {0x7F, 0x7F, 0xFF, 0xFF}, .size = 4};
     if (part == kWayBack) return protocol::flexmac::encode(protocol::flexmac::kUseFastMac);

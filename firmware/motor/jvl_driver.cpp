@@ -3,7 +3,7 @@
 namespace nplc::motor::jvl {
 namespace {
 
-/// Of the outer loop, rounded up (001 §1.2, 004).
+/// Sample period of the outer loop, rounded up (001 §1.2, 004).
 constexpr base::Microseconds kSampleMac50To141{1'920};
 constexpr base::Microseconds kSampleMac800{1'299};
 
@@ -14,7 +14,7 @@ JvlMotor::Settings settings_of(const DriverSettings& settings) {
     JvlMotor::Settings result;
     result.link.baud = settings.baud;
     result.link.silence = settings.silence;
-    // An adapter that delays status bytes delays an echo as much.
+    // An adapter that delays status bytes delays an echo by the same time.
     result.link.proof_time = settings.silence;
     result.safe_communication = settings.safe_communication;
     result.register_code =

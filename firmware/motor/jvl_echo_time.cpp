@@ -5,7 +5,7 @@
 namespace nplc::motor {
 namespace {
 
-constexpr base::Microseconds kLeastPause{8'000};  ///< more than lost characters explain
+constexpr base::Microseconds kLeastPause{8'000};  ///< longer than lost characters explain
 
 std::uint32_t within(base::Microseconds most, base::Microseconds time) {
     return static_cast<std::uint32_t>(std::clamp(time, base::Microseconds(0), most).count());

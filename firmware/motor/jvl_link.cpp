@@ -10,12 +10,12 @@ using protocol::fastmac::Status;
 
 constexpr base::Microseconds kLongestMessage{250'000};  ///< from its first byte to its echo, resends included
 constexpr std::uint8_t kMostResends = 3;
-/// Status bytes in a row, received after the whole message, that must show the old toggle before it is sent
-/// again, from when no echo can be on its way any more. The first of them may have been on its way already,
-/// so 2 is the least.
+/// Number of status bytes in a row, received after the whole message and after the echo timeout, that must
+/// show the old toggle before the message is sent again. The first of them may have been in transit already,
+/// so 2 is the minimum.
 constexpr std::uint8_t kProofBytes = 3;
 constexpr std::uint8_t kStrangeBytes = 4;
-constexpr int kReadsPerPoll = 1024;  // far more than any port holds back
+constexpr int kReadsPerPoll = 1024;  // more than any port buffers
 constexpr base::Microseconds kTick{1};
 
 constexpr std::uint8_t bump(std::uint8_t count) {
@@ -77,7 +77,7 @@ void JvlLink::rewind(base::Instant now) {
     on_the_line_ = false;
     old_shown_ = 0;
     const bool is_flexmac = size_ > 2;
-    // Two characters of pause end a message for the motor.
+    // A pause of two characters ends a message for the motor.
     next_byte_ = is_flexmac ? std::max(now, left_at_ + 3 * character_) : now;
     transmit(now);
 }
@@ -103,7 +103,7 @@ void JvlLink::forget(base::Instant now) {
 }
 
 JvlLink::Result JvlLink::poll(base::Instant now) {
-    receive(now);  // first: these bytes came before what is sent or seen to have left now
+    receive(now);  // first: these bytes came before anything sent in this poll
     const Result result = judge(now);
     if (result == Result::none) transmit(now);
     return result;
@@ -175,7 +175,8 @@ void JvlLink::on_byte(std::uint8_t byte, base::Instant now) {
     if (event.kind == Kind::reply) on_reply(event.reply);
 }
 
-/// An answer repeats its request, so that of a read dropped before is told apart, unless it asked the same.
+/// An answer repeats its request, which tells it from the answer to an earlier, dropped read, unless that
+/// read was the same.
 void JvlLink::on_reply(const protocol::flexmac::Message& reply) {
     protocol::flexmac::Message request = reply;
     request.value = 0;
@@ -215,7 +216,7 @@ bool JvlLink::is_done() const {
 }
 
 void JvlLink::settle(base::Instant now) {
-    // Longer ones may be answered first.
+    // The echo time is not learned from longer messages: the motor may answer them before their end.
     if (resends_ == 0 && size_ <= 2)
         echo_.learn(now - (on_the_line_ ? left_at_ : line_free_) - kEchoCharacters * character_);
     synchronize();
@@ -238,7 +239,7 @@ bool JvlLink::in_step(const Status& seen) const {
 
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (synchronized_ && listening_.too_late)
-        return Result::silent;  // even if accepted: what waits behind it would be late
+        return Result::silent;  // even if accepted: orders queued behind it would be late
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
     if (now - last_status_ > longest_silence()) return Result::silent;
@@ -246,7 +247,7 @@ JvlLink::Result JvlLink::judge(base::Instant now) {
     return busy() ? judge_message(now) : Result::none;
 }
 
-/// After that no echo can be on its way. Before the last one a repeat that comes too early does no harm.
+/// Echo timeout. Before the last repeat an early repeat does no harm.
 base::Microseconds JvlLink::patience() const {
     if (repeat_is_harmless() && resends_ < kMostResends) return echo_.patience();
     return echo_.proof(settings_.proof_time, resends_ == kMostResends);

@@ -13,9 +13,10 @@ using protocol::fastmac::Number;
 
 constexpr std::uint8_t kModeReg = 2;
 constexpr base::Microseconds kBlindPause{100'000};
-/// For an answer that comes after the motor's acceptance: two answers' length at 19200 baud, sent slowly.
+/// Timeout of an answer that comes after the motor's acceptance: two answers' length at 19200 baud, sent
+/// slowly.
 constexpr base::Microseconds kLateReply{40'000};
-/// Of a NOP with rapid communication, where a damaged one is another command.
+/// Interval of the NOP with rapid communication, where a damaged one is another command.
 constexpr base::Microseconds kRapidProof{1'000'000};
 constexpr int kProofEchoes = 5;
 
@@ -130,9 +131,9 @@ void JvlMotor::on_accepted(base::Instant now) {
     if (order.command == command_byte(Number::transmit_slowly)) slowed_ = true;
 }
 
-/// R: a NOP in each polarity proves that the link is in step. Safe communication comes before, and in each
-/// polarity too: until the motor has it, a damaged byte is another command, and an echo does not tell which
-/// was executed.
+/// R: a NOP in each polarity proves that the link is in step. Safe communication is requested before, also in
+/// each polarity: until the motor has it, a damaged byte is another command, and an echo does not show which
+/// one was executed.
 void JvlMotor::start_up(base::Instant now) {
     switch (phase_) {
         case Phase::down:
@@ -163,7 +164,7 @@ void JvlMotor::start_up(base::Instant now) {
     }
 }
 
-/// True while the line is taken by it. Before the first status ever the link counts as lost after `silence`.
+/// True while it uses the line. Before the first status the link counts as lost after `silence`.
 bool JvlMotor::send_blind_stop(base::Instant now) {
     if (!blind_stop_.is_allowed()) blind_stop_.allow(now + link_.silence());
     if (!link_.has_left()) return blind_stop_.is_under_way();
@@ -178,8 +179,8 @@ std::uint8_t JvlMotor::safety_command() const {
     return command_byte(safe_communication_ ? Number::safe_communication : Number::rapid_communication);
 }
 
-/// A stream without a pause may never come in step: "transmit slowly" with either toggle, twice for safe
-/// communication.
+/// The link cannot synchronize to a stream without pauses: sends "transmit slowly" with either toggle, twice
+/// each for safe communication.
 void JvlMotor::free_the_line(base::Instant now) {
     if (!link_.framing_error_seen() || now < next_blind_) return;
     constexpr std::uint8_t slowly = command_byte(Number::transmit_slowly);
@@ -190,7 +191,7 @@ void JvlMotor::free_the_line(base::Instant now) {
     next_blind_ = now + kBlindPause;
 }
 
-/// Something would be sent.
+/// There is something to send.
 bool JvlMotor::has_work() const {
     if (!is_up()) return phase_ != Phase::down;
     if (stop_wanted_ || !orders_.empty()) return true;
@@ -226,7 +227,7 @@ void JvlMotor::work(base::Instant now) {
     command(Sending::order, order.command, now);
 }
 
-/// Frames that never change may come from a broken wire: only an echo proves that the motor lives.
+/// Unchanging frames may come from a broken wire: only an echo proves that the motor works.
 void JvlMotor::prove_link(base::Instant now) {
     if (now >= proof_due()) command(Sending::link_command, command_byte(Number::nop), now);
 }
@@ -259,7 +260,7 @@ void JvlMotor::send_access(base::Instant now) {
     access.is_write ? link_.send_flexmac(message, now) : link_.send_read(message, now);
 }
 
-/// The answer to a read that the motor has accepted.
+/// Waits for the answer to a read that the motor has accepted.
 void JvlMotor::follow_access(base::Instant now) {
     if (!reply_until_) return;
     const auto value = link_.take_reply();
@@ -280,7 +281,7 @@ std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
     return is_own_code ? command : recoded(command, register_code_);
 }
 
-/// R: a MAC800 knows longwords only.
+/// R: a MAC800 supports longwords only.
 bool JvlMotor::can_execute(const Order& order) const {
     return !order.is_register_write || order.longword || !registers_are_32_bit_;
 }
@@ -325,8 +326,8 @@ void JvlMotor::hold_in_position() {
     held_from_ = link_.confirmed();
 }
 
-/// Counted in status bytes, not in time: on a late line those that arrive may be old, but the motor sent each
-/// after the one before. The last two are a pair from after two samples.
+/// Counted in status bytes, not in time: on a delayed line those that arrive may be old, but the motor sent
+/// each one after the one before. The last two are a pair from after two samples.
 void JvlMotor::update_hold() {
     if (link_.confirmed() - held_from_ >= hold_bytes_) holds_ = false;
 }

@@ -12,7 +12,7 @@ using Kind = MidiOutcome::Kind;
 constexpr int kReadsPerPoll = 64;
 constexpr base::Microseconds kRestartPause{100'000};
 constexpr std::uint32_t kWholeId = 0x7FF;
-/// To a port that had no room: a frame of 8 bytes takes 0.9 ms at 125 kbit/s.
+/// Retry interval while the port has no room: a frame of 8 bytes takes 0.9 ms at 125 kbit/s.
 constexpr base::Microseconds kOfferAgain{1'000};
 
 }  // namespace
@@ -20,16 +20,16 @@ constexpr base::Microseconds kOfferAgain{1'000};
 MidiCanLink::MidiCanLink(ports::CanPort& port, const Settings& settings)
     : port_(port), address_(settings.address) {
     const unsigned address = address_;
-    // What is for all modules (600h) is answered by the one at address 1.
+    // The module at address 1 also answers requests to all modules (600h).
     const std::uint32_t mask = address == 1 ? kWholeId & ~1U : kWholeId;
     const ports::CanFilter filters[]{{.id = can::kFromModule + address, .mask = kWholeId},
                                      {.id = can::kBootUp + address, .mask = kWholeId},
                                      {.id = (can::kToModule + address) & mask, .mask = mask}};
-    static_cast<void>(port_.filter(filters));  // without them more comes in, and is passed over
+    static_cast<void>(port_.filter(filters));  // without filters other frames arrive too and are ignored
 }
 
 void MidiCanLink::begin(const MidiMessage& message, base::Instant now) {
-    static_cast<void>(receive());  // of a message that is over
+    static_cast<void>(receive());  // left over from an earlier message
     request_ = {.kind = message.is_query ? can::Request::Kind::query : can::Request::Kind::command,
                 .address = address_,
                 .index = static_cast<std::uint16_t>(can::kIndices + message.number),
@@ -82,7 +82,7 @@ MidiOutcome MidiCanLink::receive() {
     return outcome;
 }
 
-/// Another master's requests are answered too.
+/// Other masters' requests are counted too, since they are answered.
 void MidiCanLink::count(const ports::CanFrame& frame, const can::Answer& answer) {
     using AnswerKind = can::Answer::Kind;
     const bool answers = answer.kind == AnswerKind::accepted || answer.kind == AnswerKind::value ||
@@ -95,7 +95,7 @@ void MidiCanLink::count(const ports::CanFrame& frame, const can::Answer& answer)
     if (asks && to_it) answers_.asked_by_other();
 }
 
-/// Who has booted is to be told of first.
+/// A boot-up must be reported before anything is sent.
 void MidiCanLink::transmit(base::Instant now) {
     if (booted_ || cut_) {
         deadline_ = now;

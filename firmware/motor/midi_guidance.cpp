@@ -49,7 +49,7 @@ bool MidiGuidance::fit_ramp(std::uint16_t period, std::uint8_t& ramp) {
     return false;
 }
 
-/// 000 §VI 15h: the speed may be changed in mid-run, the direction may not, nor the ramp.
+/// 000 §VI 15h: during a run the speed may be changed, but not the direction or the ramp.
 MidiGuidance::Message MidiGuidance::next_for_run() {
     const std::int32_t speed = registers_.v_soll();
     if (speed == 0) return stop_first();
@@ -67,7 +67,7 @@ MidiGuidance::Message MidiGuidance::next_for_run() {
     return command(midi::RUN, run);
 }
 
-/// V_SOLL 0 holds a move back, as JVL's does; unset, the module's own speed holds.
+/// V_SOLL 0 blocks a move, as on a JVL motor; if unset, the module's own speed applies.
 MidiGuidance::Message MidiGuidance::next_for_move() {
     const bool has_speed = registers_.is_set(registers::V_SOLL);
     const bool is_held_back = has_speed && registers_.v_soll() == 0;

@@ -11,18 +11,20 @@ namespace {
 
 namespace midi = registers::midi;
 
-/// Beyond the ramp's own time.
+/// Time limit of a stop beyond the ramp time.
 constexpr base::Microseconds kStopLate{500'000};
 constexpr base::Microseconds kSurely{20'000};
 constexpr base::Microseconds kSwing{1'000'000};
-constexpr std::int32_t kStandby = 5;  ///< increments by which a shaft at rest may swing (003 §VII 02h)
+constexpr std::int32_t kStandby =
+    5;  ///< increments by which a shaft at standstill may oscillate (003 §VII 02h)
 constexpr std::uint32_t kPeriodsPerMicrosecond = 8;
-/// The fastest that it catches up with.
+/// The highest speed of catching up.
 constexpr std::uint32_t kCatchUp = midi::kTicksPerLongPeriod;
-/// Increments, of a shaft that gives way, swings or is pushed: 18 degrees of a MAC34, 90 of a MAC23.
+/// Tolerance in increments for a shaft that yields, oscillates or is pushed: 18 degrees of a MAC34, 90 of a
+/// MAC23.
 constexpr std::int32_t kSlack = 500;
 
-/// 240 x AA periods of 0.125 us (R: the ramp's 15 steps take as long each).
+/// 240 x AA periods of 0.125 us (R: each of the ramp's 15 steps takes the same time).
 constexpr base::Microseconds ramp_time(std::uint8_t ramp, std::uint16_t period) {
     return base::Microseconds(std::uint32_t{30} * ramp * period);
 }
@@ -47,7 +49,7 @@ void MidiMotion::begin_run(std::uint32_t run, const MidiDrive& drive, base::Inst
     ramp_end_ = now + ramp_time(drive.ramp(), run_period_);
 }
 
-/// 003 §IV: catching up is ended by 18h only, so a stop that takes longer than its ramp is helped on.
+/// 003 §IV: catching up is ended by 18h only, so a stop gets a time limit after which EMERGENCY_STOP follows.
 void MidiMotion::begin_stop(const MidiDrive& drive, base::Instant now) {
     goal_holds_ = arrived_ = at_speed_ = doubtful_ = seen_moving_ = false;
     if (!at_rest()) state_ = State::stopping;
@@ -96,7 +98,7 @@ bool MidiMotion::needs_position(const MidiDrive& drive) const {
     return state_ != State::going || has_ended(drive);
 }
 
-/// Not busy, and not only because its command is newer than the measures.
+/// Not busy according to measures that are newer than the motion's command.
 bool MidiMotion::has_ended(const MidiDrive& drive) const {
     return measured_ && !drive.is_busy();
 }
@@ -116,8 +118,8 @@ MidiMotion::Event MidiMotion::on_position(const MidiDrive& drive, std::uint32_t 
     return needs_position(drive) ? check_steady(drive, now) : Event::none;
 }
 
-/// The module takes its position between question and answer: the time from the last question on is the
-/// longest that can lie between two positions.
+/// The module samples its position between query and answer: the time since the previous query was sent is
+/// the longest that can lie between two positions.
 bool MidiMotion::is_explained(const MidiDrive& drive, std::uint32_t asked_at, base::Instant now) {
     const std::uint32_t asked_before = std::exchange(position_asked_at_, asked_at);
     const bool runs = at_speed();
@@ -137,7 +139,7 @@ bool MidiMotion::is_within(const MidiDrive& drive, std::int32_t slack) const {
     return std::abs(away) <= slack;
 }
 
-/// Another master's move may have been too short to be seen as busy.
+/// Another master's move may have been too short to be reported as busy.
 void MidiMotion::check_still_there(const MidiDrive& drive) {
     if (!arrived_ || !goal_holds_ || is_within(drive, std::max<std::int32_t>(drive.tolerance(), kStandby)))
         return;
@@ -145,13 +147,13 @@ void MidiMotion::check_still_there(const MidiDrive& drive) {
     arrived_ = measured_ = false;
 }
 
-/// By how much a shaft that stands may move.
+/// Increments by which a shaft at standstill may move.
 std::int32_t MidiMotion::slack() const {
     return state_ == State::running ? 0 : kStandby;
 }
 
-/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up. Who swings in
-/// standby is within the tolerance now and then only.
+/// Long enough for one increment more than the slack at the lowest speed of a ramp or of catching up. A shaft
+/// that oscillates in standby is within the tolerance only at times.
 base::Microseconds MidiMotion::steady_time(const MidiDrive& drive) const {
     if (state_ == State::going && goal_holds_ && is_within(drive, kStandby)) return kSwing;
     const std::int32_t slowest = std::max<std::int32_t>(2 * std::max(run_period_, drive.period()),
@@ -174,10 +176,11 @@ base::Microseconds MidiMotion::steady_time(const MidiDrive& drive) const {
     return Event::none;
 }
 
-/// The shaft stands.
+/// Called at standstill: determines how the motion ended.
 MidiMotion::Event MidiMotion::conclude(const MidiDrive& drive) {
     const State ended = state_;
-    if (ended == State::running && !has_ended(drive)) return Event::none;  // held, and it goes on trying
+    if (ended == State::running && !has_ended(drive))
+        return Event::none;  // held back, and the module keeps trying
     state_ = State::at_rest;
     run_period_ = 0;
     const bool expected = ended == State::running || (ended == State::going && goal_holds_);

@@ -18,9 +18,9 @@ using Kind = MidiOutcome::Kind;
 constexpr std::uint8_t kMostRepeats = 3;  ///< of one command
 constexpr base::Microseconds kRetry{20'000};
 constexpr std::uint8_t kMostRefusals = 50;  ///< of a command that waits for standstill
-/// With a motion that nobody knows of; then it is ended.
+/// Time limit of an unexplained motion; then it is stopped.
 constexpr base::Microseconds kPatience{1'000'000};
-/// Between two queries while something moves, and while nothing does.
+/// Query intervals while something moves, and at standstill.
 constexpr base::Microseconds kPace{5'000};
 constexpr base::Microseconds kRestPace{20'000};
 constexpr std::uint8_t kCommandMode = 3;
@@ -62,31 +62,32 @@ void MidiMotor::poll(base::Instant now) {
 }
 
 base::Instant MidiMotor::next_poll(base::Instant now) const {
-    if (link_.busy()) return link_.next_poll(now);
-    base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(), now));
+    if (link_.busy() && !(kWholeMidiStop && stop_wanted_ && session_.is_blind())) return link_.next_poll(now);
+    base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(now), now));
     if (!session_.is_up()) return next;
-    if (refusals_ != 0 && retry_at_ > now) next = std::min(next, retry_at_);
+    if ((refusals_ != 0 || (kWholeMidiStop && stop_wanted_)) && retry_at_ > now)
+        next = std::min(next, retry_at_);
     if (motion_.state() == MidiMotion::State::stopping)
         next = std::min(next, std::max(now, motion_.ramp_end()));
     return next;
 }
 
-bool MidiMotor::has_work() const {
-    return stop_wanted_ || reset_wanted_ || zero_wanted_ || registers_.awaits_position() ||
-           orders_.is_executing() || !orders_.empty() || !status_is_new_ || motion_.is_doubtful() ||
-           access_.is_open();
+bool MidiMotor::has_work(base::Instant now) const {
+    return (stop_wanted_ && (!kWholeMidiStop || now >= retry_at_)) || reset_wanted_ || zero_wanted_ ||
+           registers_.awaits_position() || orders_.is_executing() || !orders_.empty() || !status_is_new_ ||
+           motion_.is_doubtful() || access_.is_open();
 }
 
-// How messages end.
+// Outcomes of messages.
 
-/// Both drives obey the stop, and where answers come damaged the requests may be understood.
+/// Both drives obey the stop, and where answers are damaged the requests may still be understood.
 void MidiMotor::look_for_trouble(base::Instant now) {
     const MidiTrouble trouble = link_.trouble();
     if (trouble == MidiTrouble::none) return;
     const bool down = session_.is_down();
     if (trouble == MidiTrouble::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
     if (down && fault_ == MidiFault::several) return;
-    session_.expect_up();  // told of at a start too, and before what is not acknowledged yet
+    session_.expect_up();  // reported even at a start, and before a loss that is not acknowledged yet
     fault_ = MidiFault::none;
     lose_link(MidiFault::several, now);
 }
@@ -98,8 +99,8 @@ void MidiMotor::drop_orders() {
 
 void MidiMotor::lose_link(MidiFault why, base::Instant now) {
     drop_orders();
-    const bool stop_blindly = why != MidiFault::link_lost && why != MidiFault::restarted;
-    if (session_.lose(link_.busy(), stop_blindly, now)) raise(why);
+    if (why != MidiFault::link_lost && why != MidiFault::restarted) stop_wanted_ = true;
+    if (session_.lose(link_.busy(), stop_wanted_, now)) raise(why);
     access_.fail_open();
     reset_wanted_ = false;
     motion_.forget_goal();
@@ -108,10 +109,12 @@ void MidiMotor::lose_link(MidiFault why, base::Instant now) {
 
 void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
     if (session_.ends_old_message()) return;
-    // A probe: its answer counts as soon as only one module gives it.
+    // A probe or a blind stop: its answer counts as soon as only one module gives it.
     if (session_.is_down()) {
         probe_ = outcome;
-        if (outcome.kind != Kind::value || link_.trouble() != MidiTrouble::none) return;
+        const bool counts = outcome.kind <= Kind::refused && link_.trouble() == MidiTrouble::none;
+        session_.note_probe(counts);
+        if (!counts) return;
     }
     switch (outcome.kind) {
         case Kind::none:
@@ -165,7 +168,7 @@ void MidiMotor::on_accepted(base::Instant now) {
         case midi::RESET:
             return begin_reset(now);
         default:
-            stop_wanted_ = stop_hard_ = false;
+            give_up_stop();
             motion_.begin_stop(drive_, now);
             break;
     }
@@ -180,12 +183,12 @@ void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
     if (session_.on_answer(motion_.at_rest() ? kRestPace : kPace, now)) motion_.restart();
 }
 
-/// 003 §VII 01h: a trip cuts the power.
+/// 003 §VII 01h: a trip cuts the motor power.
 void MidiMotor::on_status() {
     status_is_new_ = true;
     if (!session_.is_up() || !drive_.trips()) return;
     raise(MidiFault::tripped);
-    motion_.end_by_trip();
+    if (!kWholeMidiStop || !stop_wanted_) motion_.end_by_trip();
 }
 
 void MidiMotor::on_position(base::Instant now) {
@@ -195,7 +198,10 @@ void MidiMotor::on_position(base::Instant now) {
     }
     registers_.on_position(drive_.counts());
     if (access_.is_under_way() && !access_.access().is_write) finish_read();
-    on_motion(motion_.on_position(drive_, asked_at_, now));
+    const bool was_at_rest = motion_.at_rest();
+    const MidiMotion::Event event = motion_.on_position(drive_, asked_at_, now);
+    if (kWholeMidiStop && !was_at_rest && motion_.at_rest()) give_up_stop();  // confirmed
+    on_motion(event);
 }
 
 void MidiMotor::on_motion(MidiMotion::Event event) {
@@ -214,14 +220,15 @@ void MidiMotor::on_motion(MidiMotion::Event event) {
     }
 }
 
-/// Parameters and stops may be sent again. A motion is asked after; a change of a run's speed and a new
-/// origin in mid-motion leave no trace that could be.
+/// Parameters and stops may be sent again. For a motion the module's state is queried; a change of a run's
+/// speed and a zeroing in motion cannot be verified.
 void MidiMotor::on_unclear(base::Instant now) {
     session_.ask_first();
     if (message_.is_query) return;
     const bool in_run = message_.number == midi::RUN && motion_.state() == MidiMotion::State::running;
     const bool moved_origin = message_.number == midi::ZERO_POSITION && !motion_.at_rest();
     if (in_run || moved_origin || ++repeats_ > kMostRepeats) {
+        if (kWholeMidiStop && stop_wanted_) pause_stop(now);
         forget_parameter();
         raise(MidiFault::unclear);
         stop_wanted_ = true;
@@ -253,14 +260,25 @@ void MidiMotor::on_refused(base::Instant now) {
             stop_wanted_ = stop_hard_ = true;
             return;
         case midi::EMERGENCY_STOP:
-            stop_wanted_ = stop_hard_ = false;
-            motion_.forget();
+            pause_stop(now);
             break;
         default:
             forget_parameter();
             break;
     }
     raise(MidiFault::refused);
+}
+
+/// Nothing confirms the stop: the shaft may, before it is sent again.
+void MidiMotor::pause_stop(base::Instant now) {
+    if constexpr (kWholeMidiStop) {
+        stop_hard_ = stop_wanted_;
+        if (motion_.state() != MidiMotion::State::unknown) motion_.forget();
+        retry_at_ = now + session_.stop_pause();
+    } else {
+        stop_wanted_ = stop_hard_ = false;
+        motion_.forget();
+    }
 }
 
 /// It moves, whatever the driver has concluded before.
@@ -270,7 +288,7 @@ void MidiMotor::on_refused_motion(base::Instant now) {
     if (++refusals_ > kMostRefusals) raise(MidiFault::refused);
 }
 
-/// What cannot be brought into the module must not be tried for ever.
+/// Gives up a parameter that the module does not accept, so that it is not retried endlessly.
 void MidiMotor::forget_parameter() {
     repeats_ = 0;
     if (message_.number == midi::TORQUE) registers_.unset(T_SOLL);
@@ -279,7 +297,7 @@ void MidiMotor::forget_parameter() {
     zero_wanted_ = zero_unclear_ = false;
 }
 
-/// The position stays (R: "a status similar to the startup status").
+/// The position is kept (R: "a status similar to the startup status").
 void MidiMotor::begin_reset(base::Instant now) {
     reset_wanted_ = false;
     fault_ = MidiFault::none;
@@ -290,7 +308,7 @@ void MidiMotor::begin_reset(base::Instant now) {
     access_.fail_open();
 }
 
-/// The first reason counts. The drive is led to a stop.
+/// Keeps the first reason. The drive is brought to a stop.
 void MidiMotor::raise(MidiFault fault, Limitation limitation) {
     if (fault_ == MidiFault::none) {
         fault_ = fault;
@@ -302,16 +320,16 @@ void MidiMotor::raise(MidiFault fault, Limitation limitation) {
     zero_wanted_ = zero_unclear_ = false;
 }
 
-/// What it was told may still wait, for another master's SYNC; 18h ends that too.
+/// A command may still be deferred until another master's SYNC; 18h cancels that too.
 void MidiMotor::raise_and_stop(MidiFault fault) {
     raise(fault);
     stop_wanted_ = stop_hard_ = true;
 }
 
-// Which message is sent next.
+// Selection of the next message.
 
 void MidiMotor::work(base::Instant now) {
-    if (link_.busy()) return;
+    if (link_.busy() && !(stop_wanted_ && session_.is_stop_due(now))) return;
     const Message message = next_message(now);
     if (!message) return;
     message_ = *message;
@@ -320,7 +338,7 @@ void MidiMotor::work(base::Instant now) {
 }
 
 MidiMotor::Message MidiMotor::next_message(base::Instant now) {
-    if (!session_.is_up()) return session_.start_up(now);
+    if (!session_.is_up()) return session_.start_up(stop_wanted_, now);
     if (session_.must_ask()) return query(midi::GET_STATUS);
     for (;;) {
         if (const Message command = next_command(now)) return command;
@@ -339,11 +357,13 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
     return session_.next_query(motion_.moves() || motion_.needs_position(drive_), motion_.is_doubtful(), now);
 }
 
-/// What can be sent at once to lead the drive to what the registers say; nothing while that has to wait for
-/// standstill.
+/// The command that can be sent now to bring the drive to the state in the registers; empty while it has to
+/// wait for standstill.
 [[gnu::noinline]] MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
-    if (stop_wanted_) return command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
+    if (stop_wanted_)
+        return kWholeMidiStop && now < retry_at_ ? Message{}
+                                                 : command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
     if (reset_wanted_) return command(midi::RESET);
     if (zero_unclear_ || motion_.is_doubtful()) return {};
     if (zero_wanted_) return command(midi::ZERO_POSITION);
@@ -359,7 +379,7 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
     return motion;
 }
 
-/// After all orders. A write is done when its commands are through.
+/// Accesses come after all orders. A write is done when its commands have been carried out.
 MidiMotor::Message MidiMotor::next_access() {
     const Access& access = access_.access();
     if (access_.is_under_way()) {
@@ -378,7 +398,7 @@ MidiMotor::Message MidiMotor::next_access() {
     return {};
 }
 
-// What an order does.
+// Effects of an order.
 
 MidiMotor::Limitation MidiMotor::limitation_of(const Order& order) const {
     return order.is_register_write
@@ -416,7 +436,7 @@ void MidiMotor::write(const Order& order) {
     if (order.longword) write_word(order.reg + 1U, static_cast<std::uint16_t>(order.value >> 16));
 }
 
-/// 001 §4.4: with an error the mode stays.
+/// 001 §4.4: with an error the mode is kept.
 void MidiMotor::write_word(unsigned number, std::uint16_t value) {
     if (number == MODE_REG && value != 0 && error()) return;
     registers_.write(number, value);
@@ -490,9 +510,13 @@ void MidiMotor::stop() {
     registers_.set_word(MODE_REG, 0);
     access_.fail_waiting();
     stop_wanted_ = true;
+    if (!kWholeMidiStop) return;
+    retry_at_ = {};
+    motion_.begin_command();
+    session_.begin_stop();
 }
 
-// What it says of itself.
+// Reported state.
 
 bool MidiMotor::settled() const {
     if (!session_.is_up()) return true;

@@ -71,7 +71,7 @@ void MidiRegisters::select(unsigned low) {
     }
 }
 
-/// A set is P, V, A, T and Z; L is none of a MIDI drive's.
+/// A set consists of P, V, A, T and Z; a MIDI drive has no L.
 void MidiRegisters::execute(std::uint8_t number) {
     switch (number) {
         case 0x02:
@@ -95,7 +95,7 @@ void MidiRegisters::execute(std::uint8_t number) {
             relative_ = number == 0x15;
             return;
         default:
-            return;  // NOP, 07h, and what concerns JVL's line
+            return;  // NOP, 07h, and commands for JVL's line
     }
 }
 

@@ -9,14 +9,12 @@ namespace {
 
 namespace midi = registers::midi;
 
-/// Failures in a row until the link is down.
+/// Failures in a row after which the link is down.
 constexpr std::uint8_t kMostFailures = 3;
-/// Between two messages while nobody answers.
+/// Interval of the messages while there is no answer.
 constexpr base::Microseconds kProbe{100'000};
-/// 000 §VI 00h: two seconds, and a little.
+/// 000 §VI 00h: two seconds, with a margin.
 constexpr base::Microseconds kDeaf{2'100'000};
-/// While answers cannot be read.
-constexpr std::uint8_t kBlindStops = 3;
 /// Its longest answer, and time for the proof.
 constexpr base::Microseconds kOthersShow{200'000};
 
@@ -32,13 +30,16 @@ Link MidiSession::link() const {
     return link_error_ ? Link::unacknowledged : Link::up;
 }
 
-std::optional<MidiMessage> MidiSession::start_up(base::Instant now) {
+std::optional<MidiMessage> MidiSession::start_up(bool stop_wanted, base::Instant now) {
     switch (phase_) {
         case Phase::down:
             if (now < next_query_) return {};
             next_query_ = now + kProbe;
-            if (blind_stops_ == 0) return query(midi::GET_STATUS);
-            --blind_stops_;
+            if (!stop_wanted || !blind_) return query(midi::GET_STATUS);
+            if (kWholeMidiStop) {
+                next_query_ = now + stop_pause();
+                ignore_ = false;
+            }
             return MidiMessage{.number = midi::EMERGENCY_STOP};
         case Phase::resetting:
             if (now < deaf_until_) return {};
@@ -98,7 +99,7 @@ bool MidiSession::skips_refused() {
     return true;
 }
 
-bool MidiSession::lose(bool busy, bool stop_blindly, base::Instant now) {
+bool MidiSession::lose(bool busy, bool stop_wanted, base::Instant now) {
     const bool is_error = was_up_;
     if (is_error) {
         link_error_ = true;
@@ -107,12 +108,9 @@ bool MidiSession::lose(bool busy, bool stop_blindly, base::Instant now) {
     was_up_ = resetting_ = must_ask_ = false;
     phase_ = Phase::down;
     failures_ = 0;
-    next_query_ = now + kProbe;
+    next_query_ = stop_wanted ? now : now + kProbe;
     ignore_ = busy;
-    if (stop_blindly) {
-        blind_stops_ = kBlindStops;
-        next_query_ = now;
-    }
+    blind_ = true;
     return is_error;
 }
 
@@ -124,7 +122,7 @@ void MidiSession::begin_reset(base::Instant now) {
     deaf_until_ = now + kDeaf;
 }
 
-/// R: it says so on CAN only; on a serial line its two deaf seconds tell.
+/// R: a restart is reported on CAN only; on a serial line it shows as two seconds without an answer.
 bool MidiSession::on_boot(base::Instant now) {
     if (phase_ == Phase::resetting) {
         deaf_until_ = now;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "motor/stop_pace.h"
+#include "registers/midi.h"
+
 namespace nplc::motor {
 namespace {
 
@@ -10,7 +13,7 @@ using Kind = MidiOutcome::Kind;
 
 constexpr int kReadsPerPoll = 64;
 constexpr base::Microseconds kQuiet{5'000};
-/// Ack, Xoff, a reply, Xon.
+/// The longest answer: Ack, Xoff, a reply, Xon.
 constexpr int kAnswerCharacters = 3 + v24::kAround + v24::kReplyFields;
 
 base::Microseconds character_time(std::uint32_t baud) {
@@ -46,6 +49,8 @@ void MidiV24Link::begin(const MidiMessage& message, base::Instant now) {
                                .index = static_cast<std::uint8_t>(index),
                                .sub_index = message.sub_index,
                                .data = message.data};
+    is_urgent_ =
+        kWholeMidiStop && message.number == registers::midi::EMERGENCY_STOP;  // no query has its number
     bytes_ = v24::encode(request);
     decoder_.expect(request);
     deadline_ = now + kLongestAnswer;
@@ -58,7 +63,8 @@ MidiOutcome MidiV24Link::poll(base::Instant now) {
     if (outcome.kind != Kind::none || state_ == State::idle) return outcome;
     if (state_ == State::waiting_for_quiet) {
         // A line that never falls silent carries no request: it has not been taken.
-        if (noisy_ && now - heard_ < kQuiet) return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
+        if (noisy_ && !is_urgent_ && now - heard_ < kQuiet)
+            return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
         noisy_ = spoilt_ = heard_any_ = false;
         answers_.asked();
         sent_ = 0;
@@ -107,7 +113,7 @@ void MidiV24Link::withdraw() {
     if (state_ == State::waiting_for_quiet || sent_ == 0) state_ = State::idle;
 }
 
-/// Either character begins an answer, and no reply holds one.
+/// Either character begins an answer, and no reply contains one.
 void MidiV24Link::note_answer(const ports::ReceivedByte& byte) {
     if (!byte.framing_error && (byte.value == v24::kAck || byte.value == v24::kNack)) answers_.answered();
 }

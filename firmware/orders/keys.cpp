@@ -23,7 +23,7 @@ std::string write_key(std::string_view word, const std::string& name, std::span<
     return fmt::format("{} {} {}\n", word, name, hex(key));
 }
 
-/// The name; nothing if the text is not such a file.
+/// The key's name; empty if the text is no such file.
 std::optional<std::string> read_key(std::string_view word, std::string_view text,
                                     std::span<std::uint8_t> key) {
     const std::size_t begin = word.size() + 1;

@@ -1,4 +1,4 @@
-// Where there is no libsodium, as for a board whose Debian has none.
+// Replacement without libsodium, as for a board whose Debian has none.
 #include "orders/crypto.h"
 
 namespace nplc::orders {

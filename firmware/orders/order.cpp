@@ -12,7 +12,7 @@ constexpr std::string_view kHead = "nanoplc-order 1\nkind table\n";
 constexpr std::string_view kSignature = "signature ";
 constexpr std::size_t kLongestTarget = 3 * 64 + 2;
 
-/// Takes the text apart, line by line; what is not as it must be is named.
+/// Parses the text line by line and reports the first invalid one.
 class Lines {
   public:
     explicit Lines(std::string_view text) : left_(text) {}

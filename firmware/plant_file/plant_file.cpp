@@ -35,7 +35,7 @@ std::string known_keys() {
     return keys;
 }
 
-/// A key may hold anything.
+/// A key may contain any characters.
 std::string printable(std::string_view key) {
     std::string text(key.substr(0, 40));
     for (char& c : text) {
@@ -64,7 +64,7 @@ class Reader {
   private:
     void entry(std::string_view key, const Value& value) {
         if (key == "motor") return motor(value);
-        if (key == "fit") return;  // what macreg fit says of itself
+        if (key == "fit") return;  // information written by macreg fit
         if (key != "plant")
             return fail(value.line,
                         fmt::format("'{}' is not known here; write motor and [plant]", printable(key)));
@@ -129,7 +129,7 @@ std::string mismatch(const Plant& plant, registers::Model model) {
 }
 
 // 1.57 N m and 17.3E-6 kg m2 (001 §3.2.13); MAC800: host-sim/mac_motor/README.md. A current loop with both
-// poles at 0.4 of its sample makes torque 0.122 samples of the outer loop late.
+// poles at 0.4 of its sample delays the torque by 0.122 samples of the outer loop.
 Motor motor_of(registers::Model model) {
     const bool big = model == registers::Model::mac800;
     const registers::Scale scale = registers::scale_of(model);

@@ -13,7 +13,7 @@ struct Range {
 
 using Code = std::array<Range, 6>;
 
-// R: 001 §5.2.1.4's list is followed, not the bytes of §5.2.1.5.
+// R: according to the list of 001 §5.2.1.4, not the bytes of §5.2.1.5.
 constexpr Code kFormatList{{{Group::p, 0x00, 8},
                             {Group::v, 0x08, 8},
                             {Group::a, 0x10, 4},
@@ -21,7 +21,7 @@ constexpr Code kFormatList{{{Group::p, 0x00, 8},
                             {Group::l, 0x18, 4},
                             {Group::z, 0x1C, 4}}};
 
-// R: where T, L and Z stand is a guess; §5.2.1.5 shows A, V and P only.
+// R: the positions of T, L and Z are assumed; §5.2.1.5 shows A, V and P only.
 constexpr Code kOlderExample{{{Group::a, 0x00, 4},
                               {Group::t, 0x04, 4},
                               {Group::l, 0x08, 4},
@@ -91,7 +91,7 @@ std::optional<std::uint8_t> CommandReceiver::receive(std::uint8_t byte) {
     previous_ = byte;
     if (safe_ && !twice) return std::nullopt;
     const bool toggle = (byte & kToggle) != 0;
-    if (toggle == toggle_) return std::nullopt;  // R: a repeat is harmless
+    if (toggle == toggle_) return std::nullopt;  // R: a repeat has no effect
     toggle_ = toggle;
     return static_cast<std::uint8_t>(byte & kCommandBits);
 }

@@ -47,7 +47,7 @@ constexpr std::size_t data_bytes(std::uint8_t header) {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Whether the last of `bytes` may stand where it stands, after others that may.
+/// Whether the last of `bytes` is valid at its position, if the previous ones are.
 constexpr bool last_fits(Bytes bytes) {
     const std::size_t at = bytes.size() - 1;
     if (at < kHeaderBytes) return bytes[at] == bytes[0];
@@ -61,7 +61,7 @@ constexpr std::size_t header_and_block_bytes(Bytes bytes) {
     return kHeaderBytes + kRegisterBytes + (address ? kAddressBytes : 0);
 }
 
-/// `size` protected bytes from `at` on, low byte first.
+/// `size` protected bytes from `at` on, little-endian.
 constexpr std::uint32_t load(Bytes bytes, std::size_t at, std::size_t size) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < size; i += 2) {
@@ -104,7 +104,7 @@ class Writer {
   public:
     explicit Writer(Encoded& out) : out_(out) {}
     void put(std::uint8_t byte) { out_.bytes[out_.size++] = byte; }
-    /// The low `count` bytes of `value`, low byte first.
+    /// The low `count` bytes of `value`, little-endian.
     void put_protected(std::uint32_t value, int count) {
         for (int i = 0; i < count; ++i) {
             const auto byte = static_cast<std::uint8_t>(value >> (8 * i));

@@ -33,18 +33,18 @@ constexpr std::size_t place_of(std::size_t index) {
     return kSync + 2 * index;
 }
 
-/// Byte number `index` of the protected ones.
+/// Index of protected byte number `index`.
 std::uint8_t protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
     return bytes[place_of(index)];
 }
 
-/// The last byte is the protected one with this number.
+/// Whether the last byte is the protected one with this number.
 bool ends_with(std::span<const std::uint8_t> bytes, std::size_t index) {
     return bytes.size() == place_of(index) + 1;
 }
 
-/// The last byte as repeat, inverse or end of a message with so many protected bytes; those before it are
-/// right.
+/// Checks the last byte as repeat, inverse or end of a message with so many protected bytes; the previous
+/// ones are correct.
 Progress framing(std::span<const std::uint8_t> bytes, std::size_t pairs) {
     const std::size_t end = place_of(pairs);
     const std::size_t i = bytes.size() - 1;
@@ -60,7 +60,7 @@ Progress framing(std::span<const std::uint8_t> bytes, std::size_t pairs) {
     return bytes.size() == end + kEnds ? Progress::whole : Progress::partial;
 }
 
-/// Of the last byte, where those before it are right.
+/// Checks the last byte; the previous ones are correct.
 Progress request_progress(std::span<const std::uint8_t> bytes, std::uint8_t long_address) {
     if (bytes[0] < kFirstKind || bytes[0] > kLastKind) return Progress::wrong;
     const Kind kind = static_cast<Kind>(bytes[0]);
@@ -74,7 +74,7 @@ Progress request_progress(std::span<const std::uint8_t> bytes, std::uint8_t long
     return framing(bytes, kHeaderPairs + length);
 }
 
-/// Of the last byte, where those before it are right.
+/// Checks the last byte; the previous ones are correct.
 Progress reply_progress(std::span<const std::uint8_t> bytes, Answer answer, std::size_t data_bytes) {
     if (answer == Answer::accept) {
         if (bytes.back() != kAccept) return Progress::wrong;
@@ -109,8 +109,8 @@ Reply reply_of(std::span<const std::uint8_t> bytes, Answer answer, std::size_t d
     return reply;
 }
 
-/// Takes in the byte behind the `count` that are right so far. If it is wrong, bytes go off the front until
-/// what is left may still become a message, or is one.
+/// Adds a byte after the `count` correct ones. If it is wrong, bytes are removed from the front until the
+/// rest is complete or may still become a message.
 template <std::size_t N, class Count, class Judge>
 Progress take_in(std::array<std::uint8_t, N>& bytes, Count& count, std::uint8_t byte, Judge judge) {
     std::size_t begin = 0;

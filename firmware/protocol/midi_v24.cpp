@@ -7,7 +7,7 @@ constexpr std::uint8_t hex_digit(unsigned value) {
     return static_cast<std::uint8_t>(value < 10 ? '0' + value : 'A' + value - 10);
 }
 
-/// R: capitals only, as the example has them.
+/// R: capitals only, as in the manual's example.
 constexpr int value_of(std::uint8_t digit) {
     if (digit >= '0' && digit <= '9') return digit - '0';
     if (digit >= 'A' && digit <= 'F') return digit - 'A' + 10;
@@ -139,7 +139,7 @@ Answer AnswerDecoder::finish(Answer::Kind kind) {
 Answer AnswerDecoder::receive(std::uint8_t byte) {
     if (!waiting_) return {};
     const bool begun = frame_.in_frame();
-    // A control character within a reply: some of the reply was lost.
+    // A control character within a reply: a part of the reply was lost.
     if (begun && byte < 0x20 && byte != kStx && byte != kEtx) frame_.abandon();
     const FrameReader::State state = frame_.receive(byte);
     if (state == FrameReader::State::inside) {

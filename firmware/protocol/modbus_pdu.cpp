@@ -34,7 +34,7 @@ bool is_bits(Space space) {
     return space == Space::coil || space == Space::discrete_input;
 }
 
-/// Of a write of several: how many bytes of values it must have.
+/// Checks the number of value bytes of a multiple write.
 bool fits(const Request& request, std::span<const std::uint8_t> pdu) {
     const bool bits = is_bits(request.space);
     const std::uint16_t most = bits ? kMostBitsWritten : kMostWordsWritten;

@@ -22,7 +22,7 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
     return static_cast<std::uint16_t>(crc);
 }
 
-/// Of a request as far as it is there; 0: not known.
+/// Length of a request, from the bytes received so far; 0: unknown.
 std::size_t RtuReader::request_size() const {
     const std::uint8_t function = bytes_[1];
     if (function >= 1 && function <= 6) return 8;
@@ -30,7 +30,7 @@ std::size_t RtuReader::request_size() const {
     return 0;
 }
 
-/// The same of a neighbour's answer.
+/// The same for another slave's answer.
 std::size_t RtuReader::answer_size() const {
     const std::uint8_t function = bytes_[1];
     if ((function & kException) != 0) return 5;

@@ -1,6 +1,6 @@
 #include "registers/family.h"
 
-/// The MAC motors of JVL: a sequence's orders are theirs.
+/// JVL's MAC motors: they execute a sequence's orders directly.
 namespace nplc::registers {
 
 const DriveFamily& jvl_family();

@@ -62,8 +62,8 @@ constexpr CommandRow on_v24_only(CommandRow row) {
 
 constexpr std::string_view kBoth = "000 §VI, 003 §VII";
 
-// STOP_TORQUE, END_STOPS and TOLERANCE: no manual says whether they are kept; all three have a factory value
-// (R).
+// STOP_TORQUE, END_STOPS and TOLERANCE: no manual says whether they are non-volatile; all three have a
+// factory value (R).
 // clang-format off
 constexpr CommandRow kCommands[] = {
     initialisation(RESET, "RESET"),

@@ -112,8 +112,8 @@ std::optional<DriveValue> MidiFamily::value_of(const DriveModel& model, const Re
     }
 }
 
-/// The ramp is rounded up, so the motor accelerates at most as fast as wanted; what that costs is less than
-/// 120 increments.
+/// The ramp is rounded up, so the motor accelerates at most as fast as wanted; the ramp is longer by less
+/// than 120 increments.
 std::optional<DriveValue> MidiFamily::ramp_of(const DriveModel& model, std::int16_t v_soll,
                                               std::uint16_t a_soll) const {
     constexpr double kStep = 9'765'625.0 / 576;  // of A_SOLL, in counts/s^2

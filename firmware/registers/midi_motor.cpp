@@ -54,7 +54,7 @@ bool is_pair(std::uint8_t reg) {
     return reg == P_SOLL || (kP.has(reg) && (reg - P1) % 2 == 0);
 }
 
-/// A register that is there and takes any word.
+/// A register that exists and accepts any word.
 bool takes_any(unsigned cell) {
     if (cell == P_SOLL || cell == P_SOLL + 1U) return true;
     return kP.has(cell) || (kPointers.has(cell) && cell != L_REG_P);
@@ -83,7 +83,7 @@ Limitation limitation_of_word(Model model, unsigned cell, std::uint16_t value) {
     return limitation_of_missing(cell);
 }
 
-/// 001 §5.2.1.4. The link's own commands (0Ah, 0Bh, 13h, 1Dh to 1Fh) and NOPs have nothing to do here.
+/// 001 §5.2.1.4. The link's own commands (0Ah, 0Bh, 13h, 1Dh to 1Fh) and NOPs have no effect here.
 Limitation limitation_of_number(std::uint8_t number) {
     switch (number) {
         case 0x04:

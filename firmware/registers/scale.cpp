@@ -37,13 +37,13 @@ Factor one_of(string_view unit, std::initializer_list<string_view> names, Ratio 
     return std::nullopt;
 }
 
-/// `unit` without its `end`; nothing if it ends otherwise or is nothing else.
+/// `unit` without the suffix `end`; empty if it has another suffix or nothing before it.
 string_view before(string_view unit, string_view end) {
     if (unit.size() <= end.size() || !same_name(unit.substr(unit.size() - end.size()), end)) return {};
     return unit.substr(0, unit.size() - end.size());
 }
 
-/// Encoder counts in a unit of length.
+/// Encoder counts per unit of length.
 Factor length(string_view unit, const ExactScale& scale) {
     if (const Factor counts = one_of(unit, {"counts", "count"}, {1, 1})) return counts;
     return one_of(unit, {"rev"}, {scale.counts_per_rev, 1});

@@ -1,9 +1,11 @@
 #include "registers/settings.h"
 
+#include "registers/vocabulary.h"
+
 namespace nplc::registers::gateway {
 namespace {
 
-// R: the manuals name none of these; ranges are what the firmware can do.
+// R: not in the manuals; the ranges are the firmware's limits.
 constexpr std::array<SettingInfo, kSettings> kAll{{
     {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false, true,
      "address on the user's port from the next reset on, if kept"},
@@ -53,28 +55,45 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "a poll so much later than due, while the sequence is not stopped, is an event"},
 }};
 
-/// What the firmware needs of a setting, in eight bytes: a board that shows no names has none in its memory.
+/// What the firmware needs of a setting, in six bytes: a board that shows no names has none in its memory.
 struct Rule {
-    std::uint32_t highest;
-    std::uint16_t lowest;
+    static constexpr std::uint16_t kInSixteens = 0x8000;  ///< in `low`: so is `high`
+
+    std::uint16_t high;
+    std::uint16_t low;
     std::uint16_t initial;
+    constexpr std::uint32_t highest() const {
+        return (low & kInSixteens) != 0 ? std::uint32_t{high} * 16 : high;
+    }
+    constexpr std::uint32_t lowest() const { return low & (kInSixteens - 1U); }
     /// Those that can be none are so initially.
-    constexpr bool has_none() const { return initial > highest; }
+    constexpr bool allows(std::uint32_t value) const {
+        return (value >= lowest() && value <= highest()) || value == initial;
+    }
 };
 
-constexpr std::array<Rule, kSettings> kRules = [] {
-    std::array<Rule, kSettings> rules{};
-    for (std::size_t i = 0; i < rules.size(); ++i)
-        rules[i] = {kAll[i].highest, static_cast<std::uint16_t>(kAll[i].lowest),
-                    static_cast<std::uint16_t>(kAll[i].initial)};
+/// By number; of waits_for_run first.
+constexpr std::array<Rule, kSettings + 1> kRules = [] {
+    std::array<Rule, kSettings + 1> rules{};
+    rules[0].high = static_cast<std::uint16_t>(SafeReason::watchdog);
+    rules[0].initial = static_cast<std::uint16_t>(SafeReason::not_started);
+    for (std::size_t i = 0; i < kAll.size(); ++i) {
+        const bool in_sixteens = kAll[i].highest > UINT16_MAX;
+        rules[i + 1] = {static_cast<std::uint16_t>(kAll[i].highest / (in_sixteens ? 16 : 1)),
+                        static_cast<std::uint16_t>(kAll[i].lowest | (in_sixteens ? Rule::kInSixteens : 0U)),
+                        static_cast<std::uint16_t>(kAll[i].initial)};
+    }
     return rules;
 }();
 
 constexpr bool rules_say_all() {
-    for (std::size_t i = 0; i < kRules.size(); ++i) {
-        const Rule& rule = kRules[i];
-        if (rule.lowest != kAll[i].lowest || rule.initial != kAll[i].initial ||
-            rule.has_none() != kAll[i].has_none)
+    for (std::size_t i = 0; i < kAll.size(); ++i) {
+        const Rule& rule = kRules[i + 1];
+        if (rule.lowest() != kAll[i].lowest || rule.highest() != kAll[i].highest ||
+            rule.initial != kAll[i].initial)
+            return false;
+        if (kAll[i].has_none != (rule.initial == kNone) ||
+            (!kAll[i].has_none && rule.initial < rule.lowest()))
             return false;
     }
     return true;
@@ -96,27 +115,23 @@ const SettingInfo* find_setting(std::uint8_t id) {
 }
 
 bool is_standard_rate(std::uint32_t baud) {
-    constexpr std::array<std::uint32_t, 11> kRates{1'200,  2'400,   4'800,   9'600,   19'200, 38'400,
-                                                   57'600, 115'200, 230'400, 460'800, 921'600};
-    for (const std::uint32_t rate : kRates) {
-        if (rate == baud) return true;
-    }
-    return false;
+    std::uint32_t rate = 1'200;
+    while (rate < baud && rate < 921'600) rate = rate == 38'400 ? 57'600 : 2 * rate;
+    return rate == baud;
 }
 
 bool is_setting(std::uint8_t id) {
-    return id >= 1 && id <= kRules.size();
+    return id >= 1 && id <= kSettings;
 }
 
 bool is_allowed(Setting setting, std::uint32_t value) {
     const auto id = static_cast<std::uint8_t>(setting);
-    if (!is_setting(id) || (is_rate(setting) && !is_standard_rate(value))) return false;
-    const Rule& rule = kRules[id - 1U];
-    return (value >= rule.lowest && value <= rule.highest) || (rule.has_none() && value == kNone);
+    if (id > kSettings || (is_rate(setting) && !is_standard_rate(value))) return false;
+    return kRules[id].allows(value);
 }
 
 std::uint32_t initial_value(Setting setting) {
-    return kRules[static_cast<std::size_t>(setting) - 1].initial;
+    return kRules[static_cast<std::size_t>(setting)].initial;
 }
 
 }  // namespace nplc::registers::gateway

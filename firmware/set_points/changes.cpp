@@ -27,6 +27,7 @@ std::vector<Change> decode_changes(std::span<const std::uint8_t> bytes, const Re
 
 std::string changes_text(const std::vector<Change>& changes, const Record& record,
                          std::uint32_t milliseconds) {
+    constexpr std::size_t kKept = 16;
     std::string text;
     for (const Change& change : changes) {
         if (change.milliseconds != milliseconds) continue;
@@ -34,6 +35,8 @@ std::string changes_text(const std::vector<Change>& changes, const Record& recor
         text += fmt::format("{}{} {} to {}", text.empty() ? "" : ", ", point.name,
                             text_of(point, change.before), text_of(point, change.now));
     }
+    if (changes.size() == kKept && changes.front().milliseconds == milliseconds)
+        text += ", and perhaps values that are not kept any more";
     return text;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kHeader = "recipe,set_point,value,unit";
 
-/// Gathers what a file says, and the first thing that is wrong.
+/// Collects the contents of a file, and its first error.
 class Gatherer {
   public:
     explicit Gatherer(const Record& record) : record_(record) {}
@@ -72,7 +72,7 @@ std::string quoted(std::string_view text) {
     return result + "\"";
 }
 
-/// None if a quote is left open.
+/// Empty if a quote is not closed.
 std::vector<std::string> fields_of(std::string_view line) {
     std::vector<std::string> fields(1);
     bool inside = false;
@@ -91,7 +91,7 @@ std::vector<std::string> fields_of(std::string_view line) {
     return fields;
 }
 
-/// "80" and "mm" of "80 mm".
+/// Splits "80 mm" into "80" and "mm".
 std::pair<std::string, std::string> parted(const std::string& text) {
     const std::size_t blank = text.find(' ');
     if (blank == text.npos) return {text, ""};
@@ -107,7 +107,7 @@ std::string toml_text(std::string_view text) {
     return result + "\"";
 }
 
-/// A line as far as the end of the text, without a unit where there is one: more may have followed.
+/// A last line without line end and without an expected unit: it may be truncated.
 bool is_cut_short(const std::vector<std::string>& fields, const Record& record) {
     const SetPoint* point = find(record, fields[1]);
     return fields[3].empty() && point != nullptr && !point->unit.empty();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 
 #include "base/bytes.h"
@@ -15,6 +16,8 @@ namespace nplc::set_points {
 namespace layout = registers::set_points;
 
 namespace {
+
+constexpr std::size_t kGridBytes = sizeof(double);
 
 std::string in_capitals(std::string_view text) {
     std::string result(text);
@@ -36,7 +39,8 @@ void append(std::vector<std::uint8_t>& bytes, const SetPoint& point) {
     entry[0] = static_cast<std::uint8_t>(point.kind);
     entry[1] = point.reg;
     entry[2] = static_cast<std::uint8_t>((point.at_power_up ? layout::kAtPowerUp : 0) |
-                                         (point.longword ? layout::kLongword : 0));
+                                         (point.longword ? layout::kLongword : 0) |
+                                         (point.grid_from ? layout::kGrid : 0));
     entry[3] = point.unit_code;
     base::store_u32(&entry[4], static_cast<std::uint32_t>(point.initial));
     base::store_u32(&entry[8], static_cast<std::uint32_t>(point.lowest));
@@ -53,12 +57,16 @@ void append(std::vector<std::uint8_t>& bytes, const SetPoint& point) {
     }
     entry.insert(entry.end(), point.name.begin(), point.name.end());
     entry.insert(entry.end(), point.unit.begin(), point.unit.end());
+    if (point.grid_from) {
+        entry.resize(entry.size() + kGridBytes);
+        store_u64(&entry[entry.size() - kGridBytes], std::bit_cast<std::uint64_t>(*point.grid_from));
+    }
     entry.resize((entry.size() + 3) / 4 * 4);
     entry[35] = static_cast<std::uint8_t>(entry.size() / 4);
     bytes.insert(bytes.end(), entry.begin(), entry.end());
 }
 
-/// As it was written: 0.1, not the double next to the single that the record has.
+/// The decimal number as written: 0.1, not the double nearest to the record's single.
 double written(float step) {
     return std::strtod(fmt::format("{}", step).c_str(), nullptr);
 }
@@ -80,6 +88,12 @@ SetPoint point_of(const layout::Entry& entry) {
     point.name.assign(text, text + entry.name_bytes());
     text += entry.name_bytes();
     point.unit.assign(text, text + entry.unit_bytes());
+    text += entry.unit_bytes();
+    const std::uint8_t* end = entry.bytes() + entry.size();
+    if (entry.is(layout::kGrid) && end - text >= static_cast<std::ptrdiff_t>(kGridBytes)) {
+        const double from = std::bit_cast<double>(load_u64(text));
+        if (std::isfinite(from)) point.grid_from = from;
+    }
     return point;
 }
 

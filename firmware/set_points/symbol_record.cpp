@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::json;
 namespace layout = nplc::registers::set_points;
 
-/// As `seqc build` writes it; throws Json::exception.
+/// Reads the form written by `seqc build`; throws Json::exception.
 SetPoint point_of(const Json& entry) {
     SetPoint point;
     point.name = entry.at("name").get<std::string>();
@@ -24,6 +24,7 @@ SetPoint point_of(const Json& entry) {
     point.unit_code = entry.at("unit_code").get<std::uint8_t>();
     point.steps_per_unit = entry.at("steps_per_unit").get<double>();
     point.step = entry.value("step", 0.0);
+    if (entry.contains("grid_from")) point.grid_from = entry.at("grid_from").get<double>();
     point.initial = entry.at("initial").get<std::int32_t>();
     point.lowest = entry.at("lowest").get<std::int32_t>();
     point.highest = entry.at("highest").get<std::int32_t>();

@@ -53,7 +53,7 @@ Scalar modulo_order(const Digest512& number) {
     return rest;
 }
 
-/// s B + h A, both numbers bit by bit at once.
+/// s B + h A, both scalars bit by bit in one loop.
 Point combined(const Scalar& s, const Scalar& h, const Point& a, Meanwhile meanwhile) {
     const Point both = kBase + a;
     Point sum = kNeutral;

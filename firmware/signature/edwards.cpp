@@ -22,7 +22,7 @@ bool is_odd(const Field& a) {
     return (bytes_of(a)[0] & 1U) != 0;
 }
 
-/// What sum and double have in common.
+/// The common part of addition and doubling.
 Point join(const Field& e, const Field& f, const Field& g, const Field& h) {
     return {.x = e * f, .y = g * h, .z = f * g, .t = e * h};
 }

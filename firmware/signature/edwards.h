@@ -24,7 +24,7 @@ Point operator+(const Point& a, const Point& b);
 Point doubled(const Point& a);
 Point operator-(const Point& a);
 PointBytes bytes_of(const Point& a);
-/// Nothing if the bytes are no point.
+/// nullopt if the bytes are no point.
 std::optional<Point> point_of(std::span<const std::uint8_t, kFieldBytes> bytes);
 
 }  // namespace nplc::signature

@@ -6,7 +6,7 @@ namespace {
 using Digit = std::uint16_t;
 using Digits = std::array<Digit, Field::kDigits>;
 
-/// 2^256 is 38 modulo p. `carry`: what stands above the digits, less than 2^16.
+/// 2^256 is 38 modulo p. `carry`: the overflow of the digits, less than 2^16.
 void fold(Digits& digits, std::uint32_t carry) {
     while (carry != 0) {
         carry *= 38;

@@ -23,10 +23,10 @@ inline Field squared(const Field& a) {
 }
 /// 1 / a; 0 of 0.
 Field inverse(const Field& a);
-/// a^((p - 5) / 8), of which a square root is made.
+/// a^((p - 5) / 8), used for square roots.
 Field power_for_root(const Field& a);
 
-/// The lowest byte first; bit 255 is dropped. What is not below p is taken modulo p.
+/// The lowest byte first; bit 255 is ignored. A value not below p is reduced modulo p.
 Field field_of(std::span<const std::uint8_t, kFieldBytes> bytes);
 /// Below p.
 std::array<std::uint8_t, kFieldBytes> bytes_of(const Field& a);

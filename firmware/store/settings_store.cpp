@@ -10,7 +10,7 @@ base::Result<SettingValues> SettingsStore::mount() {
         if (slots_.is_fallback()) return base::Error::damaged;
         return SettingValues{};
     }
-    // A firmware with more settings may have stored them.
+    // May have been stored by a firmware with more settings.
     std::array<std::uint8_t, 2 * kMaxSettingsBytes> bytes{};
     const auto length = slots_.load(bytes);
     if (!length) return length.error();
@@ -18,7 +18,7 @@ base::Result<SettingValues> SettingsStore::mount() {
 }
 
 base::Status SettingsStore::save(const SettingValues& values) {
-    bytes_ = encode(values);
+    encode(values, bytes_);
     return slots_.begin();
 }
 

@@ -41,26 +41,29 @@ base::Status Slots::examine(Slot& slot, unsigned number) {
                         decoded.value().length <= layout_.capacity() && mark == mark_for(header);
     if (!slot.header_known) return {};
     slot.header = decoded.value();
-    const auto crc = crc_of(number, slot.header.length);
+    const auto crc = crc_of(number, slot.header.length, {});
     if (!crc) return crc.error();
     if (crc.value() == slot.header.crc) slot.state = SlotState::good;
     return {};
 }
 
-base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length) {
-    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece{};
+/// In pieces, and copied to `out` if that is not empty.
+base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length, std::span<std::uint8_t> out) {
+    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece;
     std::uint32_t crc = 0;
     for (std::uint32_t at = 0; at < length;) {
         const auto bytes = std::span(piece).first(std::min<std::size_t>(piece.size(), length - at));
         if (const auto status = storage_.read(layout_.content(slot) + at, bytes); !status)
             return status.error();
         crc = base::crc32(bytes, crc);
+        if (!out.empty()) std::copy(bytes.begin(), bytes.end(), &out[at]);
         at += static_cast<std::uint32_t>(bytes.size());
     }
     return crc;
 }
 
-/// The later of the good slots. Whether a damaged one without its mark was ever finished, the good one knows.
+/// Chooses the newer of the good slots. For a damaged slot without a valid mark, the good slot's superseded
+/// byte tells whether it was ever completed.
 void Slots::choose() {
     current_.reset();
     for (unsigned i = 0; i < slots_.size(); ++i) {
@@ -88,13 +91,9 @@ base::Result<std::uint32_t> Slots::load(std::span<std::uint8_t> out) {
     while (current_) {
         const Header header = slots_[*current_].header;
         if (header.length > out.size()) return base::Error::no_space;
-        const auto bytes = out.first(header.length);
-        for (std::size_t at = 0; at < bytes.size(); at += ports::Storage::kReadAtOnce) {
-            const auto piece = bytes.subspan(at, std::min(ports::Storage::kReadAtOnce, bytes.size() - at));
-            const auto status = read(static_cast<std::uint32_t>(at), piece);
-            if (!status) return status.error();
-        }
-        if (base::crc32(bytes) == header.crc) return header.length;
+        const auto crc = crc_of(*current_, header.length, out);
+        if (!crc) return crc.error();
+        if (crc.value() == header.crc) return header.length;
         slots_[*current_].state = SlotState::damaged;
         choose();
         if (!current_) return base::Error::damaged;

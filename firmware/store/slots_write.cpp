@@ -37,7 +37,7 @@ base::Status Slots::write(std::uint32_t offset, std::span<const std::uint8_t> by
     return {};
 }
 
-/// Both buffers still hold what came last, one behind the other up to received_.
+/// The last bytes are still in the two buffers, one after the other up to received_.
 bool Slots::repeats(std::uint32_t offset, std::span<const std::uint8_t> bytes) const {
     if (offset > received_ || received_ - offset < bytes.size() || bytes.empty()) return false;
     for (const std::uint8_t byte : bytes) {
@@ -84,7 +84,7 @@ base::Instant Slots::next_poll(base::Instant now) {
     return storage_.state() == ports::StorageState::busy ? now + kLook : now;
 }
 
-/// True while the storage works, for us or for someone else, and when our operation has failed.
+/// True while the storage is busy, for any user, and after a failed operation of this object.
 bool Slots::wait_for_storage() {
     const ports::StorageState state = storage_.state();
     if (state == ports::StorageState::busy) return true;
@@ -109,7 +109,7 @@ void Slots::erase_next() {
     if (waiting_) erased_ += layout_.erase_block();
 }
 
-/// What was filled is to be programmed next, in whole units.
+/// Moves the filled bytes to the program buffer, in whole units.
 void Slots::flush_fill() {
     flush_.bytes = fill_.bytes;
     flush_.begin = fill_.begin;
@@ -120,7 +120,7 @@ void Slots::flush_fill() {
     fill_.used = 0;
 }
 
-/// `begin`: of what flush_.begin counts from.
+/// `begin`: address to which flush_.begin is relative.
 void Slots::program_next(std::uint32_t begin) {
     const std::uint32_t address = begin + flush_.begin + flushed_;
     const std::uint32_t count = layout_.one_programming(address, flush_.used - flushed_);
@@ -158,7 +158,7 @@ void Slots::close_next() {
 }
 
 void Slots::check_next() {
-    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece{};
+    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece;
     const auto bytes = std::span(piece).first(std::min<std::size_t>(piece.size(), received_ - checked_));
     if (bytes.empty()) return end_check();
     if (const auto status = storage_.read(layout_.content(target_) + checked_, bytes); !status)
@@ -179,7 +179,7 @@ void Slots::end_check() {
     prepare_record(encode(header_), layout_.header(target_), Closing::header);
 }
 
-/// Header and mark go through flush_, which by now is free.
+/// Header and mark are programmed through flush_, which is free in this phase.
 void Slots::prepare_record(std::span<const std::uint8_t> record, std::uint32_t address, Closing next) {
     flush_.bytes.fill(0xFF);
     std::copy(record.begin(), record.end(), flush_.bytes.begin());
@@ -198,7 +198,7 @@ void Slots::program_record(Closing next) {
 }
 
 bool Slots::reads_back(std::size_t bytes) {
-    std::array<std::uint8_t, kHeaderBytes> piece{};
+    std::array<std::uint8_t, kHeaderBytes> piece;
     const auto record = std::span(piece).first(bytes);
     const auto status = storage_.read(flush_.begin, record);
     const bool same = status.ok() && std::equal(record.begin(), record.end(), flush_.bytes.begin());
@@ -206,7 +206,7 @@ bool Slots::reads_back(std::size_t bytes) {
     return same;
 }
 
-/// The note in the other slot needs an erased unit; one of a good slot was erased with it.
+/// The superseded byte of the other slot needs an erased unit; in a good slot it was erased with the slot.
 void Slots::set_current() {
     current_ = target_;
     slots_[target_] = {.state = SlotState::good, .header_known = true, .header = header_};
@@ -232,7 +232,7 @@ void Slots::end() {
     phase_ = Phase::done;
 }
 
-/// Once the new content is the current one it stays so, whatever becomes of the other slot.
+/// Once the new content is current it stays so, even if marking the other slot fails.
 void Slots::fail(base::Error error) {
     waiting_ = false;
     if (closing_ >= Closing::clearing) return end();

@@ -3,7 +3,7 @@
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
-// toml++ 3.3 takes a letter beyond ASCII that is no white space for a case that cannot be.
+// Works around a wrong assertion of toml++ 3.3 for non-ASCII letters that are no white space.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -24,8 +24,8 @@ Value value_of(const toml::node& node) {
         value.kind = Kind::table;
         for (const auto& [key, inner] : *table) {
             value.entries.emplace_back(std::string(key.str()), value_of(inner));
-            // A table in brackets begins at its first key, a value at itself: the key's line is what is
-            // meant.
+            // A table in brackets begins at its first key, a value at itself: the key's line is the right
+            // one.
             const int line = static_cast<int>(key.source().begin.line);
             if (line != 0) value.entries.back().second.line = line;
         }

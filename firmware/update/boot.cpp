@@ -23,7 +23,7 @@ bool has_hash(const Loader& loader, unsigned slot, const ImageHeader& header) {
     return hash.end() == header.hash;
 }
 
-/// The hash first: it is what a failing flash breaks.
+/// The hash first: it detects failing flash.
 bool is_sound(const Loader& loader, unsigned slot, const ImageHeader& header) {
     std::array<std::uint8_t, kHeaderBytes> bytes{};
     if (!has_hash(loader, slot, header) || !loader.storage.read(loader.layout.header(slot), bytes))
@@ -42,7 +42,7 @@ bool note_try(const Loader& loader, unsigned slot) {
     return loader.storage.state() == ports::StorageState::ready;
 }
 
-/// 0 begins; more: not to be started.
+/// 0 is preferred; higher: must not be started.
 unsigned rank(const Views& views, unsigned slot) {
     constexpr unsigned kNever = 3;
     const SlotView& view = views[slot];

@@ -7,14 +7,14 @@
 namespace nplc::update {
 namespace {
 
-/// Units of a mark, and which is the first.
+/// Number of units of a mark, and the first of them.
 struct Row {
     unsigned first;
     unsigned count;
     std::uint32_t code;
 };
 
-/// In the order of Mark. A confirmation that a power cut has spoilt is written anew.
+/// In the order of Mark. A confirmation damaged by a power cut is written again.
 constexpr std::array<Row, 3> kRows{{{0, 1, 0x504D4F43},             // "COMP"
                                     {1, kTries, 0x45495254},        // "TRIE"
                                     {1 + kTries, 3, 0x464E4F43}}};  // "CONF"

@@ -91,7 +91,7 @@ void Receiver::poll() {
     }
 }
 
-/// True while the storage works, and when our operation has failed.
+/// True while the storage is busy, and after a failed operation of this object.
 bool Receiver::wait_for_storage() {
     const ports::StorageState state = storage_.state();
     if (state == ports::StorageState::busy) return true;
@@ -111,7 +111,7 @@ bool Receiver::wait_for_storage() {
     return true;
 }
 
-/// The marks' block first: from then on nothing of the slot is started.
+/// The block with the marks first: from then on the slot is not started.
 void Receiver::erase_next() {
     const std::uint32_t blocks = 1 + (room_ + layout_.block() - 1) / layout_.block();
     if (erased_ == blocks) {
@@ -128,7 +128,7 @@ void Receiver::erase_next() {
     }
 }
 
-/// The last bytes are filled up to a whole unit.
+/// The last bytes are padded to a whole unit.
 void Receiver::program_next() {
     if (programmed_ >= received_) return;
     const std::uint32_t from = programmed_ - piece_at_;
@@ -167,7 +167,7 @@ void Receiver::check_next() {
     checked_ += size_of(bytes);
 }
 
-/// A piece that was damaged on its way and taken, and one that the storage did not keep, look the same here.
+/// A piece damaged in transmission and one that the storage did not keep cannot be distinguished here.
 void Receiver::end_check() {
     if (checked_crc_ != crc_) return fail(Result::wrong_check);
     const Result judgement = judge();

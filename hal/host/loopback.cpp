@@ -14,7 +14,7 @@ std::optional<Number> number_of(std::string_view text) {
     return whole ? std::optional(value) : std::nullopt;
 }
 
-/// Some read 010 as eight: a part has no leading zero.
+/// No leading zeros: some programs read 010 as octal.
 std::optional<std::uint32_t> ip_of(std::string_view host) {
     if (host == "localhost") host = "127.0.0.1";
     std::uint32_t ip = 0;

@@ -31,7 +31,7 @@ std::string shortened(std::string_view line) {
     return text + "...";
 }
 
-/// Line by line; the last one has an end if it had one.
+/// Applies `shown` to each line and keeps the line ends.
 std::string lines_of(std::string_view text, std::string (*shown)(std::string_view)) {
     std::string result;
     for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))

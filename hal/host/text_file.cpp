@@ -18,7 +18,7 @@ bool is_letter_and_zero(char letter, char zero) {
     return zero == '\0' && letter >= '\t' && letter <= '~';
 }
 
-/// Two characters of ASCII and their zeros.
+/// Two ASCII characters, each with a zero byte.
 bool is_unmarked_utf16(std::string_view bytes) {
     return bytes.size() >= 4 &&
            ((is_letter_and_zero(bytes[0], bytes[1]) && is_letter_and_zero(bytes[2], bytes[3])) ||
@@ -30,7 +30,7 @@ std::string why_no_text(std::string_view bytes) {
     return bytes.find('\0') == bytes.npos ? "" : kZeros;
 }
 
-/// Drops the CRs of CR LF. A CR within a line stays what it is, unless no LF ends any line.
+/// Drops the CR of CR LF. A CR within a line is kept, unless no line ends with LF.
 void end_lines_with_lf(std::string& text) {
     if (text.find('\r') == std::string::npos) return;
     if (text.find('\n') == std::string::npos) {
@@ -62,7 +62,7 @@ std::string make_text(std::string& bytes) {
 }
 
 bool TextPieces::add(std::string_view block) {
-    constexpr std::size_t kLookedAt = 4;  // tell whether it is text
+    constexpr std::size_t kLookedAt = 4;  // enough to tell whether it is text
     held_ += block;
     if (!has_begun_ && held_.size() < kLookedAt) return true;
     if (!has_begun_) begin();
@@ -75,7 +75,7 @@ void TextPieces::finish() {
     if (!has_begun_) begin();
     while (held_.ends_with(kEndOfText)) held_.pop_back();
     if (!problem_.empty() || held_.empty()) return;
-    const bool is_ended = held_.ends_with('\r') && line_ends_.empty();  // by a CR that nothing followed
+    const bool is_ended = held_.ends_with('\r') && line_ends_.empty();  // the last line ends with a CR alone
     give(is_ended ? std::string_view(held_).substr(0, held_.size() - 1) : held_, true);
 }
 
@@ -90,7 +90,7 @@ void TextPieces::give(std::string_view piece, bool ends_line) {
     if (!has_enough_) has_enough_ = !take_(piece, ends_line);
 }
 
-/// CR alone ends lines where it does so before any LF. False: what comes next tells.
+/// CR alone ends lines if it does so before any LF. False: more data are needed.
 bool TextPieces::knows_line_end() {
     if (!line_ends_.empty()) return true;
     const std::size_t end = held_.find_first_of("\r\n");

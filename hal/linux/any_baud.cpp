@@ -1,6 +1,6 @@
 #include "any_baud.h"
 
-// Not <termios.h>, which defines the same names otherwise.
+// Not <termios.h>, which defines the same names differently.
 #include <asm/ioctls.h>
 #include <asm/termbits.h>
 #include <sys/ioctl.h>

@@ -10,7 +10,7 @@ namespace {
 
 using ports::StorageState;
 
-/// It may be locked in memory, so no more than needed.
+/// It may be locked in memory, so it is kept small.
 constexpr std::size_t kStackBytes = std::size_t{128} * 1024;
 
 bool start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {

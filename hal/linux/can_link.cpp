@@ -54,7 +54,7 @@ ports::CanState state_of(std::uint32_t kernels) {
     }
 }
 
-/// `message`: what follows the header of an RTM_NEWLINK.
+/// `message`: the bytes after the header of an RTM_NEWLINK.
 std::optional<CanLink> link_of(Bytes message) {
     const auto head = taken<ifinfomsg>(message);
     if (!head) return std::nullopt;
@@ -86,7 +86,7 @@ struct Answer {
     std::optional<CanLink> link{};
 };
 
-/// The messages of one datagram.
+/// Parses the messages of one datagram.
 Answer parse(Bytes datagram) {
     Answer answer;
     while (const auto head = taken<nlmsghdr>(datagram)) {
@@ -103,7 +103,7 @@ Answer parse(Bytes datagram) {
     return answer;
 }
 
-/// A request with attributes, some of them in others.
+/// A request with attributes, which may be nested.
 class Request {
   public:
     Request(std::uint16_t type, std::uint16_t flags, int index) {

@@ -21,7 +21,7 @@ namespace {
 
 class SocketConnections final : public Connections {
   public:
-    /// `is_tcp`: what its clients say first is looked at.
+    /// `is_tcp`: the first bytes of clients are checked.
     SocketConnections(ListeningSocket listener, bool is_tcp)
         : listener_(std::move(listener)), is_tcp_(is_tcp) {
         control(EPOLL_CTL_ADD, listener_.descriptor.get(), 0, EPOLLIN);
@@ -100,7 +100,7 @@ class SocketConnections final : public Connections {
         StreamOpening opening{};
         bool is_listened_to = true;
         bool waits_to_write = false;
-        bool has_ended = false;  ///< nothing more comes
+        bool has_ended = false;  ///< end of stream reached
         std::uint32_t watched = EPOLLIN | EPOLLRDHUP;
     };
 
@@ -151,7 +151,8 @@ class SocketConnections final : public Connections {
     bool is_tcp_;
 };
 
-/// Who comes between two looks, after the one before has gone, is taken for the same one.
+/// A client that opens the terminal between two looks, after another one has closed it, counts as the same
+/// one.
 class TerminalConnections final : public Connections {
   public:
     explicit TerminalConnections(std::unique_ptr<ByteServer> terminal) : terminal_(std::move(terminal)) {}

@@ -29,7 +29,7 @@ class DescriptorClient : public host::ByteClient {
 host::ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name,
                                               std::uint32_t baud, host::ByteClient::Holding holding);
 host::ByteClient::Opened open_unix_client(const std::string& path);
-/// `where`: 127.0.0.1:PORT; what is not of this machine is refused.
+/// `where`: 127.0.0.1:PORT; other machines' addresses are refused.
 host::ByteClient::Opened open_tcp_client(const std::string& where);
 
 }  // namespace nplc::hal_linux

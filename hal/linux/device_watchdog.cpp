@@ -30,15 +30,16 @@ std::string trouble_with(const std::string& path, int error) {
     return path + ": " + std::strerror(error);
 }
 
-/// Puts it to rest. False: it cannot be. The magic close only where there is no order for it: after an order
-/// the kernel would keep the permission, and let the next program's crash stop the watchdog.
+/// Stops it. False: it cannot be stopped. The magic close is used only if the driver has no command to stop:
+/// after the command the kernel would keep the permission, and the next program's crash would stop the
+/// watchdog.
 bool stop(int device) {
     int order = WDIOS_DISABLECARD;
     if (::ioctl(device, WDIOC_SETOPTIONS, &order) == 0) return true;
     return errno != EBUSY && ::write(device, "V", 1) == 1;
 }
 
-/// The seconds that it now has, those that it always has if they are fixed; 0: errno says why not.
+/// Returns the timeout now in force in seconds, also if it is fixed; 0: error in errno.
 int set_timeout(int device, int wanted) {
     int made = wanted;
     if (::ioctl(device, WDIOC_SETTIMEOUT, &made) == 0) return made;

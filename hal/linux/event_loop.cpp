@@ -19,7 +19,7 @@ constexpr std::uint64_t kSignals = kTimer + 1;
 
 timespec in_timespec(base::Microseconds time) {
     constexpr std::int64_t kSecond = 1'000'000;
-    // Both are of 32 bits on 32-bit Arm.
+    // Both members have 32 bits on 32-bit Arm.
     return {.tv_sec = static_cast<decltype(timespec::tv_sec)>(time.count() / kSecond),
             .tv_nsec = static_cast<decltype(timespec::tv_nsec)>(time.count() % kSecond * 1000)};
 }
@@ -79,7 +79,7 @@ std::span<const std::uint32_t> EventLoop::wait(base::Instant deadline) {
     marks_.clear();
     for (int i = 0; i < count; ++i) {
         const std::uint64_t mark = events[static_cast<std::size_t>(i)].data.u64;
-        if (mark == kTimer) alarm_.reset();  // the next one stops its ringing
+        if (mark == kTimer) alarm_.reset();  // acknowledged by setting the next alarm
         if (mark < kTimer) marks_.push_back(static_cast<std::uint32_t>(mark));
     }
     return marks_;

@@ -10,7 +10,7 @@ inline base::Instant present() {
     return SteadyClock().now();
 }
 
-/// A quarter of the time has passed since a watchdog was fed.
+/// A quarter of the watchdog timeout has passed since the last feed.
 inline bool is_due(std::optional<base::Instant> fed, base::Instant now, base::Microseconds timeout) {
     return !fed || now - *fed >= timeout / 4;
 }

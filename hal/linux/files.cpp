@@ -22,13 +22,13 @@ std::string too_long(std::size_t most) {
     return "it has more than " + std::to_string(most) + " bytes";
 }
 
-/// Until there is something to read, or the end.
+/// Waits until there is data or the end.
 bool await(int descriptor) {
     pollfd state{.fd = descriptor, .events = POLLIN, .revents = 0};
     return ::poll(&state, 1, -1) > 0;
 }
 
-/// Counts what was read.
+/// `read` counts the bytes.
 std::string read_to_end(int descriptor, std::size_t most, std::size_t& read, const Take& take) {
     std::array<char, 65'536> block{};
     for (;;) {

@@ -20,7 +20,7 @@ struct Place {
     std::string problem{};
 };
 
-/// Some boards have links from older names of a chip.
+/// Some boards have links with a chip's older names.
 std::string path_of(const std::string& chip) {
     const std::string path = chip.starts_with('/') ? chip : "/dev/" + chip;
     std::error_code error;
@@ -47,7 +47,7 @@ std::string trouble_with(const std::string& chip, int error) {
     return chip + ": " + std::strerror(error);
 }
 
-/// CHIP:OFFSET, or nothing.
+/// CHIP:OFFSET, or empty.
 std::optional<Place> numbered(const std::string& where) {
     const std::size_t colon = where.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == where.size()) return std::nullopt;
@@ -80,7 +80,8 @@ Place named(const std::string& name) {
         {}, 0, "no chip has a line of the name '" + name + "'; `gpioinfo` lists them, or write gpiochip0:17"};
 }
 
-/// A line's name may end in a colon and digits too, so a chip that is not there is looked for as a name.
+/// A line's name may end in a colon and digits too, so text that names no existing chip is looked up as a
+/// line name.
 Place place_of(const std::string& where) {
     if (where.empty()) return {{}, 0, "no line is named; write gpiochip0:17 or a line's name"};
     std::optional<Place> place = numbered(where);

@@ -8,12 +8,11 @@
 
 #include "hal_linux/gpio.h"
 
-/// What differs between the two generations of libgpiod: lines of one chip. Bits are in the order of the
-/// lines.
+/// The interface to both generations of libgpiod: lines of one chip. Bits are in the order of the lines.
 namespace nplc::hal_linux {
 
-constexpr std::size_t kMostLines = 8;     ///< of one request
-constexpr std::size_t kEdgesAtOnce = 16;  ///< that the kernel keeps of a line
+constexpr std::size_t kMostLines = 8;     ///< per request
+constexpr std::size_t kEdgesAtOnce = 16;  ///< buffered by the kernel per line
 
 struct ChipLine {
     unsigned offset;
@@ -21,11 +20,11 @@ struct ChipLine {
     GpioBias bias;
 };
 
-/// What the edges at one descriptor say of their lines.
+/// The pending edges at one descriptor.
 struct Edges {
-    unsigned lines = 0;   ///< those that had one
-    unsigned levels = 0;  ///< of these lines, after their last
-    bool all = false;     ///< no later one may be missing
+    unsigned lines = 0;   ///< lines with an edge
+    unsigned levels = 0;  ///< level of these lines after their last edge
+    bool all = false;     ///< no later edge can be missing
 };
 
 class ChipRequest {
@@ -34,7 +33,7 @@ class ChipRequest {
     virtual std::optional<unsigned> levels() = 0;
     virtual bool set(unsigned levels) = 0;
     virtual std::vector<int> descriptors() const = 0;
-    /// Takes what waits at one of descriptors(), which must be readable.
+    /// Takes the pending edges at one of descriptors(), which must be readable.
     virtual Edges take_edges(std::size_t descriptor) = 0;
 };
 
@@ -42,13 +41,13 @@ struct ChipWanted {
     std::string chip;  ///< /dev/gpiochip0
     std::vector<ChipLine> lines;
     std::string consumer;
-    std::optional<unsigned> outputs;  ///< their first levels; inputs with edges without
+    std::optional<unsigned> outputs;  ///< initial levels of outputs; empty for inputs with edges
 };
 
 struct ChipRequested {
     std::unique_ptr<ChipRequest> request;
     int error;             ///< errno, without a request
-    std::size_t line = 0;  ///< which one, where that is known
+    std::size_t line = 0;  ///< the line with the error, if known
 };
 ChipRequested request_lines(const ChipWanted& wanted);
 
@@ -57,7 +56,7 @@ struct LineInfo {
     bool used;
     std::string consumer;  ///< who uses it
 };
-/// Of the lines of a chip. None if it cannot be opened; `error` is errno.
+/// The lines of a chip. Empty if it cannot be opened, with errno in `error`.
 std::vector<LineInfo> lines_of(const std::string& path, int& error);
 
 }  // namespace nplc::hal_linux

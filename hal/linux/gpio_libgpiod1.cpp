@@ -37,7 +37,7 @@ int flags_of(const ChipLine& line) {
     return flags;
 }
 
-/// In this generation the lines of one request share their flags, so each gets one of its own.
+/// In this generation the lines of one request share their flags, so each line gets its own request.
 class Request final : public ChipRequest {
   public:
     explicit Request(Chip chip) : chip_(std::move(chip)) {}

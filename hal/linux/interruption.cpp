@@ -17,7 +17,7 @@ void on_held_signal(int /*signal*/) {
     g_interrupted = 1;
 }
 
-/// nohup has it ignored, and so it stays.
+/// Under nohup the signal is ignored, which is kept.
 void hold_hang_up() {
     if (std::signal(SIGHUP, on_held_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }

@@ -25,7 +25,7 @@ const sockaddr* generic(const Address& address) {
     return reinterpret_cast<const sockaddr*>(&address);
 }
 
-/// Left behind by a program that was killed: nobody listens there any more.
+/// Left by a killed program: there is no server any more.
 bool is_stale_socket(const std::string& path, const sockaddr_un& address) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return false;
@@ -33,7 +33,7 @@ bool is_stale_socket(const std::string& path, const sockaddr_un& address) {
     return ::connect(probe.get(), generic(address), sizeof address) != 0 && errno == ECONNREFUSED;
 }
 
-/// Empty, or what is wrong.
+/// Empty, or an error.
 std::string set_access(const std::string& path, const ByteServer::Settings& settings) {
     if (!settings.group.empty()) {
         const auto group = group_number(settings.group);
@@ -79,7 +79,7 @@ ListeningSocket listen_at_path(const std::string& path, const ByteServer::Settin
                                 : reason()));
     }
     BoundPath bound(std::move(lock), path);
-    // Nobody can connect before it listens.
+    // No client can connect before listen().
     if (const std::string error = set_access(path, settings); !error.empty())
         return failed(name + ": " + error);
     if (::listen(listener.get(), SOMAXCONN) != 0) return failed(name + ": " + reason());

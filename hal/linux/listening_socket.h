@@ -12,7 +12,7 @@
 
 namespace nplc::hal_linux {
 
-/// Of a socket in the file system, which is removed with it unless another one is there by then.
+/// The path of a socket in the file system, removed by the destructor unless it is another socket by then.
 class BoundPath {
   public:
     BoundPath() = default;
@@ -34,18 +34,18 @@ class BoundPath {
     struct stat bound_ {};
 };
 
-/// A socket that listens at a place.
+/// A listening socket.
 struct ListeningSocket {
     FileDescriptor descriptor{};
-    std::string name{};   ///< as a client would be told
-    BoundPath path{};     ///< of one in the file system
-    std::string error{};  ///< one line, without a socket
+    std::string name{};   ///< as a client writes it
+    BoundPath path{};     ///< for a socket in the file system
+    std::string error{};  ///< one line, if there is no socket
 };
 ListeningSocket listen_at_path(const std::string& path, const ByteServer::Settings& settings);
 /// `where`: ADDRESS:PORT
 ListeningSocket listen_at_port(const std::string& where);
 
-/// With answers sent at once, and no call that blocks; none: nobody waits.
+/// Without Nagle's delay and non-blocking; empty if no client is connecting.
 FileDescriptor accept_client(const FileDescriptor& listener);
 
 }  // namespace nplc::hal_linux

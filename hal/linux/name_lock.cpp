@@ -15,7 +15,7 @@
 namespace nplc::hal_linux {
 namespace {
 
-/// Created only where there is none: what somebody else has prepared under this name is not written to.
+/// O_EXCL: a file that another user has prepared under this name is not written to.
 FileDescriptor open_lock_file(const std::string& path) {
     constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     for (;;) {
@@ -30,7 +30,7 @@ bool is_same(const struct stat& a, const struct stat& b) {
     return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// A program that has just been killed keeps its lock for a moment. False: errno says why.
+/// A killed program keeps its lock for a moment. False with errno.
 bool lock(const FileDescriptor& file, bool at_once) {
     const int tries = at_once ? 0 : 100;
     constexpr auto kPause = std::chrono::milliseconds{5};
@@ -71,7 +71,7 @@ NameLock::Taken NameLock::take(const std::string& endpoint, const std::string& p
                     endpoint + ": " +
                         (errno == EWOULDBLOCK ? served(opened, at_once)
                                               : beside + ": cannot be locked: " + std::strerror(errno))};
-        // Whoever had it may have removed it in between.
+        // The previous holder may have removed the file in between.
         struct stat named {};
         if (::lstat(beside.c_str(), &named) == 0 && is_same(named, opened))
             return {NameLock(std::move(file), beside), {}};

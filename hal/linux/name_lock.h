@@ -6,13 +6,13 @@
 
 namespace nplc::hal_linux {
 
-/// One program at a time serves at a path. Held by a lock on an empty file beside it, `.NAME.lock`, which is
-/// removed with this object; the kernel drops the lock of a program that was killed.
+/// At most one server per path. Held by a lock on an empty file beside it, `.NAME.lock`, which is removed
+/// with this object; the kernel drops the lock of a killed program.
 class NameLock {
   public:
     struct Taken;
-    /// For the path of this endpoint; `endpoint` names it in messages. Waits half a second for one that is
-    /// taken, unless `at_once`.
+    /// `path` of the endpoint; `endpoint` is its name in messages. Waits up to half a second for a lock that
+    /// is held, unless `at_once`.
     static Taken take(const std::string& endpoint, const std::string& path, bool at_once);
 
     NameLock() = default;
@@ -29,7 +29,7 @@ class NameLock {
 
 struct NameLock::Taken {
     NameLock lock;
-    std::string error;  ///< who serves there, or why nobody can; empty when it was taken
+    std::string error;  ///< which program serves there, or another error; empty on success
 };
 
 }  // namespace nplc::hal_linux

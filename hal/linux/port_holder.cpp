@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kEstablished = 1;  // of sockets' states, as /proc/net/tcp counts them
+constexpr unsigned kEstablished = 1;  // socket state, as in /proc/net/tcp
 
 bool has_open(const fs::path& process, const std::function<bool(const struct stat&)>& is_it) {
     std::error_code error;
@@ -44,7 +44,7 @@ std::string program_with_one_of(const std::vector<ino_t>& sockets) {
     });
 }
 
-/// The kernel is asked for connected sockets of this family; `take` gets each answer.
+/// Queries the kernel for connected sockets of this family; calls `take` for each answer.
 void list_unix_sockets(const std::function<void(const nlmsghdr&)>& take) {
     const FileDescriptor kernel(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG));
     if (!kernel) return;
@@ -79,7 +79,7 @@ void list_unix_sockets(const std::function<void(const nlmsghdr&)>& take) {
     }
 }
 
-/// The other end of a connection whose near end has this name; 0 if it is another's.
+/// The other end of a connection whose near end has this name; 0 for other connections.
 ino_t peer_of(const nlmsghdr& message, const std::string& path) {
     const auto* bytes = reinterpret_cast<const char*>(&message);
     std::string name;

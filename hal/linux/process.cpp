@@ -22,7 +22,7 @@ namespace {
 struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// A file without a name: with files instead of pipes neither side ever waits for the other.
+/// A file without a name: files instead of pipes exclude a deadlock between both sides.
 using Scratch = std::unique_ptr<std::FILE, Close>;
 
 std::string content_of(std::FILE* file) {

@@ -29,14 +29,14 @@ class PtyServer final : public ByteServer {
           terminal_(std::move(terminal)),
           name_(host::Endpoint::text(host::Endpoint::Kind::pty, path)) {}
     ~PtyServer() override {
-        // Whoever made another link of it since keeps that one.
+        // A link that was replaced by another program is kept.
         std::error_code error;
         if (fs::read_symlink(path_, error) == terminal_) fs::remove(path_, error);
     }
 
     const std::string& name() const override { return name_; }
 
-    /// A master without an open terminal behind it reports a hang-up, once that was open for the first time.
+    /// A master whose terminal is not open reports a hang-up, after it has been open once.
     bool has_client() override {
         pollfd state{.fd = master_.get(), .events = 0, .revents = 0};
         return poll(&state, 1, 0) == 0 || (state.revents & POLLHUP) == 0;
@@ -62,7 +62,7 @@ class PtyServer final : public ByteServer {
     std::string name_;
 };
 
-/// Opened and closed once, raw: without echo a client finds it as a serial line would be.
+/// Opened and closed once, in raw mode: the client finds it without echo, as a serial line.
 bool prepare_terminal(const char* terminal) {
     const FileDescriptor slave(::open(terminal, O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios mode{};
@@ -72,7 +72,7 @@ bool prepare_terminal(const char* terminal) {
     return tcsetattr(slave.get(), TCSANOW, &mode) == 0;
 }
 
-/// A link to a pseudo-terminal is what a program that was killed leaves behind.
+/// A killed program leaves a link to a pseudo-terminal.
 std::string what_else_is_at(const std::string& path) {
     std::error_code error;
     if (!fs::exists(fs::symlink_status(path, error))) return {};
@@ -96,7 +96,7 @@ ByteServer::Opened open_pty_server(const std::string& path, bool at_once) {
     if (ptsname_r(master.get(), terminal, sizeof terminal) != 0 || !prepare_terminal(terminal))
         return {nullptr, name + ": the pseudo-terminal cannot be set up: " + reason()};
     std::error_code error;
-    fs::remove(path, error);  // of a program that was killed
+    fs::remove(path, error);  // left by a killed program
     if (!error) fs::create_symlink(terminal, path, error);
     if (error) return {nullptr, name + ": the link cannot be made: " + error.message()};
     return {std::make_unique<PtyServer>(std::move(lock), std::move(master), path, terminal), {}};

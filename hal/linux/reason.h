@@ -6,7 +6,7 @@
 
 namespace nplc::hal_linux {
 
-/// What errno says, in words.
+/// The text of errno.
 inline std::string reason() {
     return std::strerror(errno);
 }

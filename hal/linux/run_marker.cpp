@@ -19,7 +19,7 @@ namespace {
 const std::string kFresh = "fresh/2";
 const std::string kEnded = "ended/2";
 const std::string kRunning = "runs/2 ";
-/// Of the version before.
+/// Written by the previous version.
 const std::string kOldFresh = "fresh  ";
 const std::string kOldEnded = "ended  ";
 const std::string kOldRunning = "running";

@@ -15,7 +15,7 @@
 namespace nplc::hal_linux {
 namespace {
 
-/// And forgets it, so that programs started by this one do not speak for it.
+/// Removes the variable, so that child processes do not use it.
 std::optional<std::string> take_variable(const char* name) {
     const char* value = std::getenv(name);
     if (value == nullptr) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<std::int64_t> whole_number(const std::string& text) {
     return number;
 }
 
-/// A path, or @name of an abstract one.
+/// A path, or @name of an abstract socket.
 bool is_place(const std::string& place) {
     return place.size() > 1 && (place[0] == '/' || place[0] == '@') &&
            place.size() < sizeof(sockaddr_un::sun_path);

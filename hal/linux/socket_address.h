@@ -8,10 +8,10 @@
 
 namespace nplc::hal_linux {
 
-/// Nothing for what is no host::loopback_address.
+/// Empty if it is not a host::loopback_address.
 std::optional<sockaddr_in> tcp_address(const std::string& where);
 
-/// Nothing for a path that is too long for a socket.
+/// Empty if the path is too long for a socket.
 std::optional<sockaddr_un> unix_address(const std::string& path);
 
 }  // namespace nplc::hal_linux

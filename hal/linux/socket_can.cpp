@@ -44,7 +44,7 @@ void count(std::uint32_t& counter) {
     if (counter < std::numeric_limits<std::uint32_t>::max()) ++counter;
 }
 
-/// Of the controller's part of an error frame, or as before.
+/// From the controller part of an error frame; `before` if it has none.
 CanState state_of(std::uint8_t controller, CanState before) {
     if ((controller & (CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_RX_PASSIVE)) != 0) return CanState::passive;
     if ((controller & (CAN_ERR_CRTL_TX_WARNING | CAN_ERR_CRTL_RX_WARNING)) != 0) return CanState::warning;
@@ -52,7 +52,7 @@ CanState state_of(std::uint8_t controller, CanState before) {
     return before;
 }
 
-/// Half a per cent: what two ends may differ by.
+/// 0.5 %: the allowed difference between two nodes.
 bool fits_bitrate(std::uint32_t made, std::uint32_t wanted) {
     return std::abs(std::int64_t{made} - std::int64_t{wanted}) * 200 <= std::int64_t{wanted};
 }
@@ -63,7 +63,7 @@ std::string set_up_words(const CanSettings& settings) {
            settings.interface + " up";
 }
 
-/// Empty if the interface is what is wanted.
+/// Empty if the interface matches the settings.
 std::string misfit(const CanSettings& settings, const std::optional<CanLink>& link) {
     const std::string& name = settings.interface;
     if (!link)
@@ -82,7 +82,7 @@ bool set_filters(int socket, const std::vector<can_filter>& filters) {
                         static_cast<socklen_t>(filters.size() * sizeof(can_filter))) == 0;
 }
 
-/// Bound to the interface, with error frames and the count of those that were lost.
+/// Bound to the interface, with error frames and the counter of lost frames.
 FileDescriptor open_raw(int index, const std::optional<std::vector<can_filter>>& filters) {
     FileDescriptor raw(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
     constexpr can_err_mask_t kErrors = CAN_ERR_MASK;
@@ -198,7 +198,7 @@ bool SocketCan::Inside::hears_changes() {
     return hears;
 }
 
-/// False if there were none. What counts is how it is now: an error frame may be younger than the change.
+/// False if there were none. The present state is read, since an error frame may be newer than the change.
 bool SocketCan::Inside::take_changes() {
     if (!changes.take()) return false;
     const std::optional<CanLink> link = can_link(settings.interface);
@@ -236,7 +236,7 @@ std::string SocketCan::reopen() {
     own.raw = std::move(raw);
     own.index = link->index;
     own.lost_before = 0;
-    // What changed since it was asked first is not lost.
+    // Queried again, so that a change since the first query is not lost.
     link = can_link(own.settings.interface);
     own.set_state(link ? link->state : CanState::down);
     return {};

@@ -30,7 +30,7 @@ std::string cannot_connect(const std::string& name, int reason) {
     }
 }
 
-/// Its backlog is: of a socket in the file system it says so, of TCP it does not answer.
+/// The server's backlog is full: reported for a socket in the file system, no answer for TCP.
 bool is_full(int reason) {
     return reason == EAGAIN || reason == ETIMEDOUT;
 }
@@ -45,7 +45,7 @@ class SocketClient final : public DescriptorClient {
     std::function<std::string()> other_client_;
 };
 
-/// 0, or the reason.
+/// Returns 0, or errno.
 int join(int socket, const sockaddr* address, socklen_t size) {
     if (::connect(socket, address, size) == 0) return 0;
     if (errno != EINPROGRESS) return errno;

@@ -20,7 +20,7 @@ bool has_event(const FileDescriptor& descriptor, short events) {
 
 class SocketServer final : public ByteServer {
   public:
-    /// `is_tcp`: what its client says first is looked at.
+    /// `is_tcp`: the client's first bytes are checked.
     SocketServer(ListeningSocket listener, bool is_tcp) : listener_(std::move(listener)), is_tcp_(is_tcp) {
         watch(listener_.descriptor.get());
     }
@@ -60,7 +60,7 @@ class SocketServer final : public ByteServer {
         ::epoll_ctl(all_.get(), EPOLL_CTL_ADD, descriptor, &event);
     }
 
-    /// A second client is turned away; while the first has hung up and was not read to its end, it waits.
+    /// A second client is rejected; it waits while the first has hung up and is not read to its end.
     void accept_clients() {
         while (has_event(listener_.descriptor, POLLIN)) {
             const bool has_room = !client_ || (has_hung_up() && !has_unread());

@@ -5,7 +5,7 @@
 
 #include "ports/storage.h"
 
-/// What ports/storage.h allows.
+/// Checks of the contract in ports/storage.h.
 namespace nplc::hal_linux {
 
 constexpr bool is_inside(const ports::StorageGeometry& geometry, std::uint32_t address, std::size_t count) {

@@ -6,13 +6,13 @@
 
 namespace nplc::hal_linux {
 
-/// What a client says first tells what a browser sends from everything else: the head of an HTTP request (a
-/// method, a space, and the `/` or `*` that its target begins with), or a record of a TLS handshake (16h,
-/// 03h, 00h to 04h). No message of a device's protocol begins so, however many of its start bytes came
-/// before: in MacTalk an inverse follows each byte, and 16h is none of its start bytes.
+/// Detects a browser by the first bytes of a stream: the head of an HTTP request (a method, a space, and the
+/// `/` or `*` that its target begins with), or a record of a TLS handshake (16h, 03h, 00h to 04h). No message
+/// of a device's protocol begins so, however many of its start bytes precede it: in MacTalk an inverse
+/// follows each byte, and 16h is not a start byte.
 class StreamOpening {
   public:
-    /// To be asked for all bytes in their order until it says no.
+    /// To be called with all bytes in order until it returns false.
     bool admits(std::span<const std::uint8_t> bytes) {
         for (const std::uint8_t byte : bytes) {
             if (decided_) return true;

@@ -35,19 +35,19 @@ constexpr std::array<Speed, 11> kSpeeds{{{1200, B1200},
 using Holding = host::ByteClient::Holding;
 
 constexpr base::Microseconds kLook{1'000};
-constexpr base::Microseconds kSlice{20'000};  ///< between two looks whether someone is to be given way
+constexpr base::Microseconds kSlice{20'000};  ///< interval of the check for a program with priority
 constexpr base::Microseconds kLeastRest{5'000};
 constexpr base::Microseconds kShortWait{100'000};
-/// Who holds a line in turns leaves it sooner.
+/// A program that shares the line in turns releases it sooner.
 constexpr base::Microseconds kLongWait{3'000'000};
-/// A stop ends sooner.
+/// A stop ends sooner than this.
 constexpr base::Microseconds kLongestStop{12'000'000};
 
 void sleep_for(base::Microseconds time) {
     std::this_thread::sleep_for(std::chrono::microseconds(time.count()));
 }
 
-/// Of the whole line, for who holds it at once. The others neither send nor read while another has it.
+/// Lock on the whole line, for Holding::at_once. Meanwhile other programs neither send nor read.
 struct flock at_once_lock() {
     struct flock lock {};
     lock.l_type = F_WRLCK;
@@ -99,7 +99,7 @@ class TerminalClient final : public DescriptorClient {
     }
     std::string holder() const override { return held_ ? std::string() : holder_of(path_); }
 
-    /// Whoever sends over the line sets it up first: another speed may have been left there.
+    /// Sets the line's mode before sending: another program may have left another speed.
     bool hold_within(base::Microseconds wait) {
         const base::Instant end = now() + wait;
         while (!try_lock()) {
@@ -123,7 +123,7 @@ class TerminalClient final : public DescriptorClient {
         return ::fcntl(descriptor(), F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
     }
 
-    /// After a slice nobody else reads.
+    /// After one slice no other program reads.
     Rest take_at_once() {
         if (is_alone_) return Rest::held;
         struct flock lock = at_once_lock();
@@ -132,7 +132,7 @@ class TerminalClient final : public DescriptorClient {
         return is_alone_ ? Rest::held : Rest::still_taken;
     }
 
-    /// Another program may have taken what was there; the line is gone only if it hung up.
+    /// Another program may have read the bytes; the line is lost only on a hang-up.
     std::optional<std::size_t> read_once(std::span<std::uint8_t> out, base::Microseconds wait) {
         const auto count = DescriptorClient::read(out, wait);
         if (count) return count;
@@ -146,7 +146,7 @@ class TerminalClient final : public DescriptorClient {
     Holding holding_;
     termios before_{};
     bool held_ = false;
-    bool is_alone_ = false;  ///< at once
+    bool is_alone_ = false;  ///< held with Holding::at_once
     bool has_set_up_ = false;
 };
 

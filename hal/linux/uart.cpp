@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kAtOnce = 256;
 
-/// Drivers round; a line takes a speed that is 2.5 % off, not more.
+/// Drivers round the speed; a line tolerates an error of 2.5 %.
 bool fits_baud(std::uint32_t made, std::uint32_t wanted) {
     const std::int64_t off = std::int64_t{made} - std::int64_t{wanted};
     return std::abs(off) * 40 <= std::int64_t{wanted};
@@ -41,14 +41,14 @@ bool set_mode(int descriptor, const UartSettings& settings) {
     return ::tcsetattr(descriptor, TCSANOW, &mode) == 0;
 }
 
-/// A driver may take some of a mode and say nothing of the rest.
+/// A driver may apply a part of a mode without reporting an error.
 bool has_flow_control(int descriptor) {
     termios mode{};
     if (::tcgetattr(descriptor, &mode) != 0) return true;
     return (mode.c_iflag & kFlowControl) != 0 || (mode.c_cflag & static_cast<tcflag_t>(CRTSCTS)) != 0;
 }
 
-/// An FTDI adapter holds characters back for 16 ms otherwise. Not every driver has it.
+/// Otherwise an FTDI adapter delays characters by 16 ms. Not supported by every driver.
 void ask_for_low_latency(int descriptor) {
     serial_struct serial{};
     if (::ioctl(descriptor, TIOCGSERIAL, &serial) != 0) return;
@@ -161,7 +161,7 @@ std::size_t Uart::unmarked(std::span<const std::uint8_t> bytes, std::span<ports:
     return count;
 }
 
-/// The buffer is empty, and where the driver tells, the shift register too.
+/// The buffer is empty, and also the shift register if the driver reports it.
 bool Uart::transmitter_idle() {
     int waiting = 0;
     if (gone() || ::ioctl(descriptor_, TIOCOUTQ, &waiting) != 0) return true;

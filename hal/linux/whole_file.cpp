@@ -10,7 +10,7 @@
 namespace nplc::hal_linux {
 namespace {
 
-/// A disk that fills up takes a part of it first.
+/// A nearly full disk first accepts a part of the data.
 bool write_all(const FileDescriptor& file, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());

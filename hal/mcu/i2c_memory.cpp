@@ -81,7 +81,8 @@ StorageState I2cMemory::end(StorageState result) {
     return result;
 }
 
-/// In its write cycle the memory acknowledges nothing. An address without bytes writes nothing.
+/// During its write cycle the memory acknowledges nothing (acknowledge polling). An address without data
+/// writes nothing.
 void I2cMemory::ask() {
     bus_.begin(at(0));
 }

@@ -7,13 +7,14 @@ set(NPLC_BOARD "lm3s6965evb" CACHE STRING "Folder of firmware/boards")
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_SIZE arm-none-eabi-size)
-# Those that know what the link-time optimiser reads.
+# The variants that can read LTO objects.
 set(CMAKE_AR arm-none-eabi-gcc-ar CACHE STRING "Archiver")
 set(CMAKE_RANLIB arm-none-eabi-gcc-ranlib CACHE STRING "Indexer of archives")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
-# One unit, optimised when it is linked. With -flifetime-dse=1 what a constructor finds in cleared memory counts as known:
-# members that begin with 0 cost no instruction (boards/bare_metal/run.cpp). Without the two passes the image is smaller.
+# A single unit, optimised at link time. With -flifetime-dse=1 a constructor may rely on cleared memory:
+# members that begin with 0 cost no instruction (boards/bare_metal/run.cpp). Without the two passes the image
+# is smaller.
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=${NPLC_CPU} -mthumb -ffunction-sections -fdata-sections -fno-exceptions -fno-rtti \
 -fno-threadsafe-statics -fno-unwind-tables -fno-asynchronous-unwind-tables \
 -flifetime-dse=1 -fno-caller-saves -fno-if-conversion -flto")

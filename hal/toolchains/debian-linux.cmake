@@ -1,8 +1,8 @@
-# What the toolchain files for Linux share, built with Debian's cross compilers. The includer has set:
+# Shared by the Linux toolchain files, built with Debian's cross compilers. The includer has set:
 #   NPLC_TRIPLET         as in the compiler's name
 #   NPLC_DEBIAN_NAME     Debian's name of the architecture
 #   NPLC_EMULATOR        runs its programs here
-# NPLC_SYSROOT: where the libraries beside the compiler's own are.
+# NPLC_SYSROOT: the libraries other than the compiler's own.
 get_filename_component(project "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 set(NPLC_SYSROOT "${project}/build/sysroot/${NPLC_DEBIAN_NAME}" CACHE PATH "What tools/sysroot fetched")
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES NPLC_SYSROOT)

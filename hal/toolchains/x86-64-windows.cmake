@@ -12,7 +12,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
-# Debian's g++ 12 takes the inline functions of this file for those that the linker keeps, and leaves values in registers
-# that the kept ones use (GCC bug 115049): numbers came out wrong, and programs crashed.
+# Debian's g++ 12 confuses this file's inline functions with the copies that the linker keeps, and leaves
+# values in registers that the kept ones use (GCC bug 115049): wrong numbers and crashes.
 set(CMAKE_C_FLAGS_INIT -fno-ipa-ra)
 set(CMAKE_CXX_FLAGS_INIT -fno-ipa-ra)

@@ -45,7 +45,7 @@ class ComClient final : public host::ByteClient {
     base::Instant now() const override { return host::steady_now(); }
 
   private:
-    /// A read ends with the first byte, or after `wait`, in whole milliseconds.
+    /// A read ends with the first byte or after `wait`, in whole milliseconds.
     bool set_patience(base::Microseconds wait) {
         const std::int64_t wanted = wait.count() <= 0 ? 0 : (wait.count() + 999) / 1000;
         const auto milliseconds = static_cast<DWORD>(std::min<std::int64_t>(wanted, 60'000));
@@ -63,7 +63,7 @@ class ComClient final : public host::ByteClient {
     Handle handle_;
     std::string name_;
     DCB before_;
-    DWORD patience_ = MAXDWORD;  ///< none set yet
+    DWORD patience_ = MAXDWORD;  ///< not set yet
 };
 
 std::string cannot_open(const std::string& port, DWORD reason) {
@@ -79,7 +79,7 @@ std::string cannot_open(const std::string& port, DWORD reason) {
     }
 }
 
-/// 8 data bits, no parity, 1 stop bit, no handshake; the lines that supply some adapters are on.
+/// 8 data bits, no parity, 1 stop bit, no handshake; the control lines that supply some adapters are on.
 DCB raw_mode(DCB mode, std::uint32_t baud) {
     mode.BaudRate = baud;
     mode.ByteSize = 8;

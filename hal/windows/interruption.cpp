@@ -13,8 +13,8 @@ std::atomic<bool> g_held = false;
 
 constexpr DWORD kWindowsPatienceMs = 5'000;
 
-/// In a thread of Windows' own. Not taken the second time, which ends the program. What closes the console
-/// ends it when this returns: until then the program can leave line and motor as they were.
+/// Called in a thread of Windows. The second event is not handled and ends the program. When the console is
+/// closed, Windows ends the program on return from here: until then it can restore line and motor.
 BOOL WINAPI on_event(DWORD event) {
     if (g_interrupted.exchange(true) && !g_held) return FALSE;
     if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) ::Sleep(kWindowsPatienceMs);

@@ -16,8 +16,8 @@ using hal_windows::error_text;
 using hal_windows::Handle;
 using hal_windows::wide;
 
-/// A file that a child inherits and that is gone when all have closed it: with files instead of pipes neither
-/// side ever waits for the other.
+/// A file that a child inherits and that is deleted when all have closed it: files instead of pipes exclude a
+/// deadlock between both sides.
 Handle scratch() {
     std::array<wchar_t, MAX_PATH + 1> folder{};
     std::array<wchar_t, MAX_PATH + 1> name{};
@@ -52,7 +52,7 @@ std::string content_of(const Handle& file) {
     return content;
 }
 
-/// As the C library of the child takes it apart again: backslashes count double before a quote only.
+/// Quotes as the child's C library parses it: backslashes are doubled before a quote only.
 std::string quoted(const std::string& word) {
     std::string text = "\"";
     std::size_t backslashes = 0;

@@ -17,7 +17,7 @@ constexpr base::Microseconds kConnectWait{3'000'000};
 constexpr base::Microseconds kWriteWait{1'000'000};
 constexpr int kMostBytes = 65'536;
 
-/// Of the whole program, until it ends.
+/// For the whole program, until it ends.
 bool start_sockets() {
     static const bool started = [] {
         WSADATA about{};
@@ -62,7 +62,7 @@ bool readable_within(SOCKET socket, base::Microseconds wait) {
     return ::select(0, &set, nullptr, nullptr, &limit) > 0;
 }
 
-/// Windows tells a connection that failed as an exception.
+/// Windows reports a failed connection as an exception event.
 bool writable_within(SOCKET socket, base::Microseconds wait) {
     fd_set set = only(socket);
     fd_set failed = only(socket);
@@ -106,7 +106,7 @@ class SocketClient final : public host::ByteClient {
     std::string name_;
 };
 
-/// 0, or the reason.
+/// Returns 0, or the error number.
 int join(SOCKET socket, const sockaddr_in& address) {
     u_long on = 1;
     if (::ioctlsocket(socket, static_cast<long>(FIONBIO), &on) != 0) return ::WSAGetLastError();

@@ -9,7 +9,7 @@
 namespace nplc::host {
 namespace {
 
-/// What writes of escape sequences need on a console; others take no notice.
+/// Enables escape sequences on a console; no effect on other outputs.
 void take_escapes(DWORD which) {
     const HANDLE console = ::GetStdHandle(which);
     DWORD mode = 0;
@@ -25,7 +25,7 @@ void prepare_streams() {
     for (const DWORD which : {STD_OUTPUT_HANDLE, STD_ERROR_HANDLE}) take_escapes(which);
 }
 
-/// Windows takes the device NUL for a terminal too.
+/// Windows reports the device NUL as a terminal too.
 bool is_terminal(std::FILE* stream) {
     DWORD mode = 0;
     const std::intptr_t handle = ::_get_osfhandle(::_fileno(stream));

@@ -4,10 +4,10 @@
 
 namespace nplc::hal_windows {
 
-/// What Windows says of one of its error numbers, in one line.
+/// The text of a Windows error number, in one line.
 std::string error_text(unsigned long error);
 
-/// Between UTF-8 and what Windows' functions take.
+/// Conversion between UTF-8 and Windows' wide strings.
 std::wstring wide(const std::string& text);
 
 }  // namespace nplc::hal_windows

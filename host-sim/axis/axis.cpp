@@ -29,7 +29,7 @@ AxisReading read_axis(const std::string& file, registers::Model model) {
     return result;
 }
 
-/// The scenario's names are looked for from its folder.
+/// Names in the scenario are relative to its folder.
 AxisReading read_axis(const std::string& option, const Scenario& scenario, registers::Model model) {
     if (!option.empty()) return read_axis(option, model);
     if (!scenario.plant) return {};

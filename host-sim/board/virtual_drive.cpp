@@ -11,7 +11,7 @@ namespace nplc::sim {
 NPLC_FAMILIES(NPLC_DECLARE)
 #undef NPLC_DECLARE
 
-/// The JVL motor is World's own.
+/// The JVL motor is part of World.
 std::unique_ptr<VirtualDrive> make_jvl_drive(const VirtualDriveOptions&, const LineFaults&) {
     return nullptr;
 }

@@ -18,7 +18,7 @@ MacMotorOptions motor_options(const WorldOptions& options) {
     return result;
 }
 
-/// What the gateway goes by where nothing is stored.
+/// The gateway's settings while nothing is stored.
 store::SettingValues initial_settings(const WorldOptions& options) {
     store::SettingValues values = gateway::values_of(options.gateway);
     const auto set = [&values](store::Setting setting, std::uint32_t value) {
@@ -59,8 +59,6 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 void World::start_gateway(gateway::StartCause cause) {
     const bool first = !controller_;
     ++starts_;
-    const bool waits_for_first_run =
-        controller_ ? controller_->sequence().waits_for_first_run() : options_.is_new;
     const bool uploaded =
         controller_ && tables().upload_state() == static_cast<std::uint32_t>(store::Phase::done);
     if (uploaded) table_.clear();
@@ -86,7 +84,7 @@ void World::start_gateway(gateway::StartCause cause) {
     controller_.emplace(ports, kTableArea, table_memory_, *settings_, cause);
     if (options_.polling != Polling::steadily) controller_->sequence().pace(base::Microseconds(250));
     controller_->sequence().observe(this);
-    if (waits_for_first_run) controller_->sequence().wait_for_first_run();
+    if (options_.is_new) settings_->keep_mark(cause == gateway::StartCause::watchdog);
     start_table(first);
 }
 
@@ -182,7 +180,7 @@ void World::move_characters() {
     }
 }
 
-/// The firmware looks at this line when it polls anyway, so that the user changes nothing in its timing.
+/// Serviced only when the firmware polls anyway, so that the user line does not change the firmware's timing.
 void World::move_user_characters() {
     if (!waiting_.user.empty() && user_line_.from_motor().free(now_)) {
         user_line_.from_motor().start(waiting_.user.front(), now_);
@@ -244,7 +242,7 @@ void World::poll_gateway() {
     if (controller_->reset_asked()) start_gateway(gateway::StartCause::power_up);
 }
 
-/// The driver executes in the order given, and drops all that waits behind the one under way, or all.
+/// The driver executes orders in sequence, and drops either all that wait behind the one in progress, or all.
 void World::follow_orders() {
     const motor::Counters counters = motor_->counters();
     if (counters.orders == followed_.orders && counters.discarded == followed_.discarded) return;

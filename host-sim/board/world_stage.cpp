@@ -52,7 +52,7 @@ void World::act(const action::OnMotor& what) {
     if (const std::string_view missing = drive_->act(what); !missing.empty()) drive_has_no(missing);
 }
 
-/// The scenario goes on, and says so.
+/// Reports the missing part; the scenario goes on.
 void World::drive_has_no(std::string_view what) {
     log(fmt::format("the virtual {} drive does not have {}", options_.drive->model->family->name(), what));
 }
@@ -73,7 +73,7 @@ void World::gateway(action::Gateway what) {
     }
 }
 
-/// One after the other: each waits until the one before is stored.
+/// In sequence: each waits until the previous one is stored.
 void World::set_points(const action::SetPoints& asked) {
     wake();
     waiting_.set_points.push_back(asked);
@@ -84,7 +84,7 @@ void World::refused(gateway::Result why) {
         std::string(registers::gateway::describe(why)));
 }
 
-/// The gateway starts anew, and what it was storing is stored or not.
+/// The gateway restarts; a request in progress is stored or not.
 void World::lose_set_points() {
     if (waiting_.writer && waiting_.writer->request != 0) {
         refused(gateway::Result::interrupted);

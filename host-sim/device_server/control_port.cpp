@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kClients = 8;
 constexpr std::size_t kLongestLine = 1000;
 constexpr std::size_t kAtOnce = 4096;
-constexpr hal_linux::Connections::Id kConsole = 0;  ///< of no connection
+constexpr hal_linux::Connections::Id kConsole = 0;  ///< no connection has this number
 using State = hal_linux::Connections::State;
 
 }  // namespace
@@ -61,7 +61,7 @@ void ControlPort::let_in() {
     }
 }
 
-/// Its end is no end of the program: `macsim --control - < bench.txt` serves on.
+/// The end of the input does not end the program: `macsim --control - < bench.txt` keeps serving.
 void ControlPort::read_console(const CarryOut& carry_out) {
     if (console_ended_ || !host::input_within(base::Milliseconds{0})) return;
     std::array<char, kAtOnce> bytes{};

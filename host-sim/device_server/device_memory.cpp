@@ -13,7 +13,7 @@
 namespace nplc::sim {
 namespace {
 
-/// Far more than any memory holds.
+/// More than any memory holds.
 constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
 
 /// NAME = VALUE
@@ -65,7 +65,7 @@ std::string save(const std::string& path, const DeviceMemory& memory) try {
     return error.what();
 }
 
-/// Leaves nothing behind.
+/// Leaves no temporary file behind.
 std::string try_to_save(const std::string& path) try {
     OutputFile file(path);
     return {};

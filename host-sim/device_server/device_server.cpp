@@ -19,7 +19,7 @@ constexpr int kFailed = 2;
 /// Half a character at 19200 baud.
 constexpr auto kWait = std::chrono::microseconds{250};
 constexpr Time kRefresh = std::chrono::milliseconds{200};
-/// After a longer halt of the whole machine the devices go on from where they were.
+/// After a longer halt of the whole machine virtual time does not catch up.
 constexpr Time kLongestCatchUp = std::chrono::milliseconds{500};
 
 volatile std::sig_atomic_t g_ended = 0;

@@ -6,23 +6,23 @@
 #include "arena.h"
 
 namespace __gnu_cxx {
-void __freeres();  // of libstdc++, which says it for tools such as valgrind
+void __freeres();  // libstdc++'s function to free its reserve, meant for tools such as valgrind
 }
 
 namespace {
 
 using nplc::sim::fmu::Arena;
 
-/// libstdc++'s reserve for exceptions, 72 KB that it has in each library and does not give back.
+/// Frees libstdc++'s reserve for exceptions, 72 KB per library, which it does not free itself.
 [[gnu::destructor]] void give_back_the_reserve() {
     __gnu_cxx::__freeres();
 }
 
 thread_local Arena* t_arena = nullptr;
 
-/// In front of whatever is allocated.
+/// Header in front of each allocation.
 struct alignas(std::max_align_t) Owner {
-    Arena* arena;  // null: malloc's
+    Arena* arena;  // null: allocated by malloc
 };
 
 void* allocate(std::size_t bytes) {
@@ -31,7 +31,7 @@ void* allocate(std::size_t bytes) {
     Arena* arena = t_arena;
     void* place = nullptr;
     if (arena != nullptr) {
-        t_arena = nullptr;  // the arena's own chunks do not lie in it
+        t_arena = nullptr;  // the arena's own chunks are not allocated in it
         try {
             place = arena->take(whole);
         } catch (...) {
@@ -67,7 +67,7 @@ AllocateIn::~AllocateIn() {
 
 }  // namespace nplc::sim::fmu
 
-// The shared library's own, which nothing outside of it sees. The other forms are made of these.
+// Operators of the shared library only, not exported. The other forms use these.
 void* operator new(std::size_t bytes) {
     return allocate(bytes);
 }

@@ -10,7 +10,7 @@
 namespace nplc::sim::fmu {
 namespace {
 
-/// A file in memory, as minizip wants to use one.
+/// A file in memory, in the form that minizip needs.
 struct Memory {
     std::string bytes;
     std::size_t at = 0;

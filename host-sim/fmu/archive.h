@@ -10,7 +10,7 @@ struct ArchivedFile {
     std::string content;
 };
 
-/// A ZIP file of these, each deflated and of 1980; the same files give the same bytes.
+/// A ZIP file of these files, each deflated and dated 1980; the same files give the same bytes.
 std::string archive(const std::vector<ArchivedFile>& files);
 
 }  // namespace nplc::sim::fmu

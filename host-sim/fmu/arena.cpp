@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kChunk = std::size_t{256} * 1024;
 constexpr std::size_t kLeastBlock = 32;
 
-/// In front of what take() answers.
+/// Header in front of each block that take() returns.
 struct alignas(std::max_align_t) Head {
     std::size_t size_class;
 };

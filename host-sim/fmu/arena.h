@@ -7,8 +7,8 @@
 
 namespace nplc::sim::fmu {
 
-/// Memory that can be copied as a whole and put back where it was, so that every pointer in it stays right:
-/// a simulation that lies in it with all that it allocates is saved and restored without knowing what it is.
+/// Memory that can be copied as a whole and restored at the same address, so that every pointer in it stays
+/// valid: a simulation whose allocations are all in it is saved and restored without knowledge of its types.
 /// Not for alignments above that of std::max_align_t.
 class Arena {
   public:
@@ -27,7 +27,7 @@ class Arena {
     };
     struct Books {
         std::array<Block*, kClasses> free{};
-        std::size_t chunk = 0;  // what lies behind it is unused
+        std::size_t chunk = 0;  // chunks behind this one are unused
         std::size_t used = 0;   // of that chunk
     };
     struct Chunk {
@@ -42,7 +42,7 @@ class Arena {
         std::vector<std::vector<std::byte>> chunks;
     };
     Image image() const;
-    /// Of this arena.
+    /// `image` must be of this arena.
     void restore(const Image& image);
 
   private:
@@ -50,11 +50,11 @@ class Arena {
     std::size_t used_of(std::size_t chunk) const;
 
     Books books_;
-    std::vector<Chunk> chunks_;  // their bytes stay where they are until the arena goes
+    std::vector<Chunk> chunks_;  // their addresses do not change until the arena is destroyed
 };
 
-/// While it lives, what this thread allocates lies in `arena`. What was allocated there, or elsewhere, may be
-/// freed at any time the arena lives.
+/// While it exists, allocations of this thread come from `arena`. Memory from it, or from elsewhere, may be
+/// freed at any time while the arena exists.
 class AllocateIn {
   public:
     explicit AllocateIn(Arena& arena);

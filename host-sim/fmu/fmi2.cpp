@@ -34,13 +34,13 @@ fmi2Status unsupported(fmi2Component component, std::string_view function) {
     return with(component, [&](Instance& one) { return one.refuse_unsupported(function); });
 }
 
-/// "file:///tmp/a%20b/resources" as a path; what is none is taken as a path.
+/// Path of an URI such as "file:///tmp/a%20b/resources"; other text is returned as a path.
 std::string path_of(std::string_view uri) {
     if (!uri.starts_with("file:")) return std::string(uri);
     uri.remove_prefix(5);
     if (uri.starts_with("//")) {
         uri.remove_prefix(2);
-        uri.remove_prefix(std::min(uri.find('/'), uri.size()));  // a host's name
+        uri.remove_prefix(std::min(uri.find('/'), uri.size()));  // the host name
     }
     if (uri.size() > 2 && uri[2] == ':') uri.remove_prefix(1);  // "/C:/"
     std::string path;
@@ -58,7 +58,7 @@ std::string path_of(std::string_view uri) {
     return path;
 }
 
-/// FMI 2.0 has no unsigned integers: bits keep their places.
+/// FMI 2.0 has no unsigned integers: the bit pattern is kept.
 Kind kind_in_2(const Instance& one, fmi2ValueReference reference, Kind kind) {
     return kind == Kind::integer && one.is_bits(reference) ? Kind::bits : kind;
 }
@@ -233,7 +233,7 @@ fmi2Status fmi2CancelStep(fmi2Component component) {
     return unsupported(component, "fmi2CancelStep");
 }
 
-/// Steps are never under way when a call has returned.
+/// No step is in progress when a call has returned.
 fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind, fmi2Status*) {
     return unsupported(component, "fmi2GetStatus");
 }

@@ -1,7 +1,7 @@
 #include "handle.h"
 #include "sim/fmu/fmi3.h"
 
-/// What importers may look for in every FMU 3.0 and this one does not offer.
+/// Functions that importers may look up in every FMU 3.0 and that this one does not support.
 namespace {
 
 fmi3Status not_offered(fmi3Instance instance, std::string_view function) {

@@ -12,7 +12,7 @@
 namespace nplc::sim::fmu {
 
 std::string fmu_file(const FmuOptions& options) {
-    static_cast<void>(make_machine(options.setup));  // what cannot run is not written
+    static_cast<void>(make_machine(options.setup));  // throws if the machine is not possible
     const auto resource = [](std::string_view name) { return fmt::format("resources/{}", name); };
     std::vector<ArchivedFile> files = {
         {"modelDescription.xml", model_description(options)},

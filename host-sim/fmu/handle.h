@@ -8,15 +8,15 @@
 
 namespace nplc::sim::fmu {
 
-/// What an importer holds. Those that live are known, so that one that was freed is noticed.
+/// The handle for an importer. Existing instances are registered, so that the use of a freed one is detected.
 Instance* enlist(Instance* instance);
-/// Null: it does not live, and nothing can be reported.
+/// Null if it does not exist; nothing can be reported then.
 Instance* living(void* handle);
 void discharge(void* handle);
 
 enum class Outcome { done, refused, broken };
 
-/// `work` with the instance, which answers false for what it refused. No exception leaves the library.
+/// Calls `work` with the instance; `work` returns false for an error. No exception leaves the library.
 template <class Work>
 Outcome guarded(void* handle, Work work) {
     Instance* instance = living(handle);
@@ -30,7 +30,7 @@ Outcome guarded(void* handle, Work work) {
     return Outcome::broken;
 }
 
-/// Arrays of `count` values that are not there are refused.
+/// Null pointers to arrays of `count` values are refused.
 inline bool are_there(const Instance& instance, std::size_t count, const void* references,
                       const void* values) {
     if (count == 0 || (references != nullptr && values != nullptr)) return true;

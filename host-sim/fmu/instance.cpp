@@ -10,10 +10,10 @@
 namespace nplc::sim::fmu {
 namespace {
 
-constexpr double kLongest = 1e9;          // s, of a simulation
+constexpr double kLongest = 1e9;          // s, longest simulation
 constexpr double kNanoseconds = 1e9;      // in a second
-constexpr double kSlack = 1e-6;           // s, by which an importer's sum of steps may be off
-constexpr double kRelativeSlack = 1e-12;  // and of its time
+constexpr double kSlack = 1e-6;           // s, tolerance for the sum of an importer's steps
+constexpr double kRelativeSlack = 1e-12;  // and relative to its time
 
 std::string_view in_words(Kind kind) {
     switch (kind) {
@@ -31,11 +31,11 @@ std::string_view in_words(Kind kind) {
 
 }  // namespace
 
-/// All that get and set state are about.
+/// The complete state that get and set state handle.
 struct Instance::Simulation {
     std::unique_ptr<Machine> machine;
-    Values values;   // as the importer sees them
-    Values applied;  // of the inputs, as the machine has them
+    Values values;   // visible to the importer
+    Values applied;  // inputs as applied to the machine
     Mode mode = Mode::instantiated;
     double start = 0;
     std::optional<double> stop;
@@ -138,7 +138,7 @@ bool Instance::exit_initialization() {
     return true;
 }
 
-/// Speed, acceleration and torque before the place, and the mode last.
+/// Speed, acceleration and torque before the position, and the mode last.
 void Instance::apply() {
     Simulation& simulation = *simulation_;
     const auto apply_one = [&simulation](Id id) {

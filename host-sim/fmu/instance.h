@@ -13,24 +13,23 @@
 
 namespace nplc::sim::fmu {
 
-/// The one category of messages.
+/// The only category of messages.
 inline constexpr std::string_view kErrors = "logStatusError";
 
-/// Tells the importer what was refused, and why.
+/// Reports to the importer what was refused and why.
 using Report = std::function<void(const std::string& message)>;
 
-/// An instance of the FMU, whatever version of FMI it is spoken to in. What is refused is reported, answers
-/// false and changes nothing. Several instances know nothing of each other; one is used by one thread at a
-/// time.
+/// An instance of the FMU, independent of the FMI version. A refused call is reported, returns false and
+/// changes nothing. Instances are independent of each other; each may be used by one thread at a time.
 class Instance {
   public:
-    /// Null, and reported: wrong token or resources, or a machine that cannot be.
+    /// Null, with a report: wrong token or resources, or an impossible machine.
     static Instance* make(const char* token, const std::string& resources, Report report);
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
     ~Instance();
 
-    /// From when to when, before the initialization mode; without it from 0 on.
+    /// Start and stop time, before the initialization mode; without it the start is 0.
     bool set_experiment(double start, std::optional<double> stop);
     bool enter_initialization();
     bool exit_initialization();
@@ -39,25 +38,25 @@ class Instance {
     /// As newly made.
     bool reset();
 
-    /// Of the communication point reached.
+    /// The last communication point.
     double time() const;
 
-    /// `values` gets or has one for each reference, of variables of the kind.
+    /// `values`: one per reference, of variables of this kind.
     bool get(const std::uint32_t* references, std::size_t count, Kind kind, double* values);
     bool set(const std::uint32_t* references, std::size_t count, Kind kind, const double* values);
 
     struct State;
-    /// `*place` is null, or holds a state that is forgotten.
+    /// `*place` is null, or a state that is replaced.
     bool save_into(void** place);
     bool restore(const State* state);
     bool forget_at(void** place);
 
-    /// The variable exists and is a register of bits.
+    /// Whether the variable exists and is a bit register.
     bool is_bits(std::uint32_t reference) const;
 
     bool refuse(const std::string& why) const;
     bool refuse_unsupported(std::string_view function) const;
-    /// No categories: all.
+    /// Without categories: all.
     bool set_logging(bool on, std::size_t count, const char* const* categories);
 
   private:
@@ -80,7 +79,7 @@ class Instance {
     std::vector<const Variable*> by_reference_;
     std::vector<State*> states_;
     Arena arena_;
-    Simulation* simulation_ = nullptr;  // lies in arena_, with all that belongs to it
+    Simulation* simulation_ = nullptr;  // allocated in arena_, with all its parts
 };
 
 }  // namespace nplc::sim::fmu

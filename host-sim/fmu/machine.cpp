@@ -28,7 +28,7 @@ double pull_of(const Setup& setup) {
     return setup.plant ? setup.plant->torque : 0;
 }
 
-/// A plant file's values are taken as they are while the parameters stand where they begin.
+/// The plant file's values are used exactly while the parameters have their start values.
 void couple(MacMotor& motor, const Setup& setup, const Values& values) {
     Load& load = motor.plant().load();
     const double ratio = 1 + values[Id::load_inertia] / motor_inertia(motor.model());
@@ -112,7 +112,7 @@ class HostedMotor final : public Machine {
     Time next_sample_;
 };
 
-/// As `nanoplc-sim run` has them without options.
+/// The options of `nanoplc-sim run` without arguments.
 WorldOptions world_options(registers::Model model) {
     WorldOptions options;
     options.motor = model;

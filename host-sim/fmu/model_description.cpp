@@ -83,7 +83,7 @@ class Writer {
             token_of(options_.setup), in_xml(description), NPLC_VERSION);
     }
 
-    /// A state is a copy of memory with addresses in it, good in its own process only: it is not serialised.
+    /// A state is a copy of memory with addresses, valid in its own process only: it is not serialised.
     void co_simulation() {
         line("  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" {}/>",
              kModelIdentifier,
@@ -141,7 +141,7 @@ class Writer {
         return fmt::format("{}", value);
     }
 
-    /// Of the type: unit, limits, start.
+    /// Attributes of the type: unit, limits, start.
     static std::string details(const Variable& variable) {
         std::string text;
         if (!variable.unit.empty()) text += fmt::format(" unit=\"{}\"", variable.unit);
@@ -164,7 +164,7 @@ class Writer {
         line("    </ScalarVariable>");
     }
 
-    /// At a communication point no output depends on an input: these act in the step that follows.
+    /// At a communication point no output depends on an input: inputs act in the following step.
     void structure_in_3() {
         for (const std::string_view element : {"Output", "InitialUnknown"}) {
             for (const Variable& variable : variables_) {

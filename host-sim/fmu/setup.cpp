@@ -27,7 +27,7 @@ struct Content {
     std::string problem;
 };
 
-/// Without the system's own calls, which would go into the library with all that they need.
+/// Not through the system's own file functions, which would add their dependencies to the library.
 Content read_file(const std::string& name) {
     Content content;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), std::fclose);
@@ -43,7 +43,7 @@ std::string in_folder(std::string folder, std::string_view file) {
     return folder.append(file);
 }
 
-/// "motor MAC140\n" and then perhaps "table N\n".
+/// Takes "WORD VALUE\n" from the front of `text`, such as "motor MAC140\n" or "table N\n".
 bool take(std::string_view& text, std::string_view word, std::string_view& value) {
     if (!text.starts_with(word) || !text.substr(word.size()).starts_with(' ')) return false;
     const auto end = text.find('\n');
@@ -53,7 +53,7 @@ bool take(std::string_view& text, std::string_view word, std::string_view& value
     return true;
 }
 
-/// "256 5 0 0 0"; numbers beyond all reason are bounded by the plant itself.
+/// "256 5 0 0 0"; the plant itself limits extreme values.
 std::optional<Load> load_in(std::string_view text) {
     std::array<double, 5> numbers{};
     for (double& number : numbers) {

@@ -12,8 +12,8 @@
 namespace nplc::sim::fmu {
 namespace {
 
-constexpr double kMostLoad = 10'000;   // of T_SOLL's units, as in scenarios
-constexpr double kMostInertia = 1000;  // of the motor's own
+constexpr double kMostLoad = 10'000;   // in units of T_SOLL, as in scenarios
+constexpr double kMostInertia = 1000;  // times the motor's own
 constexpr double kFarthest = 1e6;      // rad
 constexpr double kStiffest = 1e6;      // N.m/rad
 

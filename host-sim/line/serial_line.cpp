@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kBitsPerCharacter = 10;
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::uint64_t kDraws = 6;  ///< of a character
+constexpr std::uint64_t kDraws = 6;  ///< per character
 
 }  // namespace
 
@@ -26,7 +26,8 @@ std::uint8_t LineDirection::damage_mask() {
     return static_cast<std::uint8_t>(1 + (bits >> 16) % 255);
 }
 
-/// Always the same number of draws, so that one fault's share does not move another's victims.
+/// A fixed number of draws, so that the share of one fault does not change which characters another fault
+/// hits.
 LineDirection::Luck LineDirection::draw_all() {
     random_.discard(std::exchange(undrawn_, 0));
     Luck luck{};

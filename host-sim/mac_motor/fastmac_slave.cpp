@@ -48,7 +48,7 @@ base::Microseconds FastMacSlave::bits(int count) const {
 }
 
 void FastMacSlave::receive(std::uint8_t byte, bool framing_error, base::Instant now, LinkTarget& motor) {
-    // R: a line that was idle for the nine bits after a start bit: the next one is a start bit again.
+    // R: resynchronization: after nine idle bits the next start bit is a start bit again.
     constexpr int kInStep = kCharacter + 9;
     const base::Microseconds since = last_received_ ? now - *last_received_ : base::Microseconds(0);
     last_received_ = now;
@@ -74,7 +74,7 @@ void FastMacSlave::receive_command(std::uint8_t byte, base::Instant now, LinkTar
     const auto accepted = receiver_.receive(byte);
     if (!accepted) return;
     const fastmac::Command command = fastmac::decode_command(*accepted, options_.code);
-    // R: in SAFE_MODE the link's own commands still act, so that a master can talk and read.
+    // R: in SAFE_MODE the link's own commands still act, so that a master can communicate and read.
     const bool on_link = command.mode == fastmac::Mode::command &&
                          execute_on_link(static_cast<fastmac::Number>(command.number));
     const bool effective = on_link || !motor.in_safe_mode();
@@ -97,7 +97,7 @@ bool FastMacSlave::execute_on_link(fastmac::Number number) {
             slow_ = true;
             return true;
         case fastmac::Number::transmit_address:
-            // R: two, because a master takes a status byte as valid only when it came twice.
+            // R: two, because a master accepts a status byte only when it is received twice.
             address_due_in_ = 2;
             return true;
         case fastmac::Number::use_flexmac:
@@ -112,7 +112,7 @@ bool FastMacSlave::execute_on_link(fastmac::Number number) {
 bool FastMacSlave::takes(const flexmac::Message& message) const {
     if (message.read && reply_.size() + flexmac::kMaxBytes > kReplyBuffer) return false;
     if (!is_mac800(options_.model)) return true;
-    // R: MAC800 knows longwords only, and registers by number only.
+    // R: MAC800 supports longwords only, and registers by number only.
     return message.level != flexmac::Level::address && (message.read || message.longword);
 }
 
@@ -134,7 +134,8 @@ std::uint8_t FastMacSlave::register_of(const flexmac::Message& message) const {
 void FastMacSlave::receive_message(const flexmac::Message& message, base::Instant now, LinkTarget& motor) {
     if (!takes(message)) return;
     receiver_.accept_other();
-    show_framing_error(false, motor);  // R: no line out of step makes three header bytes and the inverses
+    show_framing_error(false,
+                       motor);  // R: a line out of step cannot produce three header bytes and the inverses
     if (flexmac::is_protocol_command(message)) {
         flexmac_ = message.target == flexmac::kReadIndexUseFlexMac;
         return;
@@ -175,7 +176,7 @@ std::uint8_t FastMacSlave::next_byte(const LinkTarget& motor) {
 
 std::uint8_t FastMacSlave::status_byte(const LinkTarget& motor) const {
     const std::uint32_t errors = motor.error_status();
-    const std::uint32_t changes = errors & 0x60;  // both at once only where somebody wrote them: then neither
+    const std::uint32_t changes = errors & 0x60;  // both only if a client wrote them: then neither
     return fastmac::encode_status({.toggle = receiver_.toggle(),
                                    .decelerating = changes == 0x40,
                                    .accelerating = changes == 0x20,

@@ -81,7 +81,7 @@ void InnerLoop::power_up(std::int64_t counts) {
     at_mark_ = false;
 }
 
-// 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor takes the register for its angle.
+// 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor sets its angle from the register.
 void InnerLoop::turn_at_the_mark(std::int32_t by) {
     const std::int32_t whole = constants_.counts_a_field;
     const std::int32_t behind = angle_ >= whole - kMarkWidth ? angle_ - whole : angle_;

@@ -8,7 +8,7 @@ constexpr std::uint16_t kDefaultsToFlash = 256;
 constexpr std::uint16_t kDefaults = 257;
 constexpr std::uint16_t kStoredAgain = 258;
 
-/// Not parameters: what the motor itself counts and shows, which no flash brings back.
+/// Not parameters: values that the motor itself counts and shows, which are not stored in flash.
 constexpr Cell kVolatile[] = {cell::P_SOLL, cell::P_FNC,   cell::P_IST,  cell::V_IST,    cell::FLWERR,
                               cell::FNCERR, cell::FNC_OUT, cell::VF_OUT, cell::MODE_REG, cell::I2T,
                               cell::UIT,    cell::V_EXT,   cell::G_FNC,  cell::REC_CNT};
@@ -66,8 +66,8 @@ void MacMotor::power_cycle() {
     modes_.request_mode(first_mode());
 }
 
-/// 001 §3.2.36: FastMAC and the pulse input share their pins. R: on MAC800, which has two channels and no
-/// such bits (004), both are there.
+/// 001 §3.2.36: FastMAC and the pulse input share their pins. R: MAC800 has two channels and no such bits
+/// (004), so both are available.
 bool MacMotor::has_user_interface() const {
     constexpr std::int32_t kUserInterface = 3, kCommunication = 3;
     return state_.is_mac800() || (state_.memory.get(cell::CNTRL_BITS) & kUserInterface) == kCommunication;
@@ -199,7 +199,7 @@ void MacMotor::write(std::uint8_t reg, std::int32_t value) {
     write(reg, value, state_.is_mac800() || (entry != nullptr && registers::is_32_bit(entry->format)));
 }
 
-// What is done over MacTalk only: SAFE_MODE's doors, flash, reset (001 §4.4.16, §5.1).
+// Functions available over MacTalk only: entering and leaving SAFE_MODE, flash, reset (001 §4.4.16, §5.1).
 
 bool MacMotor::enter_safe_mode() {
     if (!is_mode(MotorMode::init)) return false;

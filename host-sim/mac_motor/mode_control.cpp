@@ -6,7 +6,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr int kTestSamples = 11;
-constexpr std::int32_t kNominalGain = 256;  // KIA, KIB, KIC (001 §3.2.148): ours are exact
+constexpr std::int32_t kNominalGain = 256;  // KIA, KIB, KIC (001 §3.2.148): the virtual motor's are exact
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void ModeControl::request_mode(std::uint16_t mode) {
     if (!error_keeps_mode()) leave_for(mode);
 }
 
-// R: AT and the tests end in INIT whatever they are left for, and a test runs to its end.
+// R: AT and the tests end in INIT whichever mode was requested, and a test runs to its end.
 void ModeControl::leave_for(std::uint16_t mode) {
     if (state_.facts().leave == Leave::test) return;
     if (state_.facts().leave == Leave::coasting) {
@@ -131,7 +131,7 @@ void ModeControl::fail(std::uint32_t error) {
 // The modes without speed regulator: AT's drive, MANI, TESTU, TESTA, BREAK, TESTKI (001 §4.4.5, §4.4.8 to
 // §4.4.11, §4.4.23).
 
-/// What 001 §4.4.9 and §4.4.10 set up before the first sample.
+/// Preparations of 001 §4.4.9 and §4.4.10 before the first sample.
 void ModeControl::begin_test() {
     test_samples_ = 0;
     brake_direction_ = state_.v_ist() > 0 ? 1 : state_.v_ist() < 0 ? -1 : 0;
@@ -155,7 +155,7 @@ Drive ModeControl::test_drive() const {
             return {.kind = Drive::Kind::analogue_torque, .torque_limit = t_soll};
         case MotorMode::test_acceleration:
             return {.kind = Drive::Kind::torque, .torque = t_soll};
-        case MotorMode::brake:  // R: T_SOLL keeps its value, its torque turns against the motion
+        case MotorMode::brake:  // R: T_SOLL keeps its value, its torque acts against the motion
             return {.kind = Drive::Kind::torque, .torque = -brake_direction_ * t_soll};
         default:
             return {.kind = state_.facts().drive};
@@ -167,7 +167,7 @@ void ModeControl::set_recording(bool on) {
     state_.set_control(on ? control | state_.bits().record : control);
 }
 
-/// R: braked is what stands or has turned round.
+/// R: braking ends at standstill or reversal.
 bool ModeControl::is_braked() const {
     return std::int64_t{state_.v_ist()} * brake_direction_ <= 0;
 }
@@ -207,7 +207,7 @@ void ModeControl::search_home() {
     if (profile_.search_home()) end_homing();
 }
 
-// 001 §4.4.13. R: a STARTMODE that is no mode to be in, or homes again, ends in INIT.
+// 001 §4.4.13. R: a STARTMODE that is no valid mode, or a homing mode, ends in INIT.
 void ModeControl::end_homing() {
     const std::int32_t position = wrap32(std::int64_t{memory_.get(cell::P_HOME)} + beyond_index());
     profile_.take_position(position);

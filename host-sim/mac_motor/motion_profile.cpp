@@ -57,7 +57,7 @@ std::int32_t MotionProfile::acceleration() const {
     return std::max(state_.emergency && hard != 0 ? hard : normal, 1);
 }
 
-/// To P_SOLL, on the ring that P_FNC runs on.
+/// Distance to P_SOLL, modulo 2^32 as P_FNC wraps.
 std::int64_t MotionProfile::distance_16() const {
     return wrap32(16 * std::int64_t{memory_.get(cell::P_SOLL)} - memory_.get(cell::P_FNC));
 }
@@ -99,7 +99,7 @@ void MotionProfile::run() {
     }
 }
 
-/// What the end of a move may count on.
+/// Deceleration planned for the end of a move.
 std::int32_t MotionProfile::braking(std::int64_t distance, std::int32_t acceleration) {
     if (v_from_ == 0 && distance == 0) corrected_braking_ = 0;
     return corrected_braking_ == 0 ? acceleration : std::min(corrected_braking_, acceleration);
@@ -114,7 +114,8 @@ void MotionProfile::run_to(std::int64_t distance) {
 
 void MotionProfile::run_position() {
     const std::int64_t distance = distance_16();
-    if (distance != distance_to_go_) corrected_braking_ = 0;  // a new target: what was learnt is not of it
+    if (distance != distance_to_go_)
+        corrected_braking_ = 0;  // a new target: the learned value does not apply to it
     run_to(distance);
     distance_to_go_ = wrap32(distance - v_old_);
 }
@@ -138,16 +139,15 @@ void MotionProfile::regulate(std::int32_t fnc_out) {
     go_on_from(fnc_out, thrown_back);
 }
 
-// R: a profile that the torque limit has turned round, as at a hard stop, is not held to A_SOLL on its way
-// back: it would leave the stop and come again.
+// R: a profile that the torque limit has reversed, as at a hard stop, is not limited by A_SOLL on its way
+// back: otherwise it would leave the stop and return repeatedly.
 void MotionProfile::go_on_from(std::int32_t fnc_out, bool thrown_back) {
     v_old_ = fnc_out;
     v_from_ = thrown_back ? 0 : fnc_out;
 }
 
-// R: a move whose braking had to be corrected is planned with less of it to its end, or it would swing about
-// its target.
-// Gear modes have no such end: there it comes back.
+// R: a move whose braking had to be corrected is planned with less deceleration to its end, or it would
+// oscillate about its target. Gear modes have no such end and move back instead.
 void MotionProfile::learn_braking(std::int32_t wanted, std::int32_t correction) {
     if (correction == 0 && state_.facts().geared() && corrected_braking_ != 0) {
         corrected_braking_ += corrected_braking_ / 64 + 1;
@@ -190,7 +190,7 @@ bool MotionProfile::within_window() const {
     return std::abs(std::int64_t{v_soll()} - 16 * std::int64_t{state_.v_ist()}) < window;
 }
 
-// R: P_FNC runs on with the shaft, so that a stop does not cost the motor its position.
+// R: P_FNC follows the shaft, so that the position is kept after a stop.
 void MotionProfile::stay_passive(const Drive& drive) {
     if (!resynchronises_by_itself()) {
         const std::int64_t moved = 16 * std::int64_t{state_.v_ist()} - follow_error_16_;
@@ -213,7 +213,7 @@ void MotionProfile::begin_mode(const ModeFacts& next) {
     if (next.geared()) gear_.reset();
 }
 
-// A sample ahead, as always.
+// One sample ahead, as in every sample.
 void MotionProfile::begin_at_measured_speed() {
     // A user may have written V_IST.
     go_on_from(16 * std::clamp(state_.v_ist(), -kBound, kBound), false);
@@ -222,8 +222,8 @@ void MotionProfile::begin_at_measured_speed() {
     servo_.restart(v_old_);
 }
 
-// R: what the regulator gave up in a mode without correction is taken off P_FNC now: P_FNC - FLWERR stays
-// true.
+// R: the lag dropped by the regulator in a mode without correction is subtracted from P_FNC now, so that
+// P_FNC - FLWERR stays correct.
 void MotionProfile::begin_correction() {
     const std::int64_t given_up = follow_error_16_ - servo_.lag_16();
     memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - given_up));
@@ -231,7 +231,7 @@ void MotionProfile::begin_correction() {
     memory_.set(cell::FNCERR, 0);
 }
 
-// The modes that the analogue input steers: AV, AVZ, A2POS, APOS (001 §4.1.5, §4.1.6, §4.1.10, §4.1.11).
+// Modes controlled by the analogue input: AV, AVZ, A2POS, APOS (001 §4.1.5, §4.1.6, §4.1.10, §4.1.11).
 
 std::int32_t MotionProfile::analogue_v_soll() const {
     const std::int32_t aninp = memory_.get(cell::ANINP);

@@ -92,7 +92,7 @@ void MotorCommands::select_set(int index) {
     for (const auto group : {p, v, a, t, l, z}) select(group, index);
 }
 
-// 001 §3.2.43 - 48. R: a pointer out of range is left as it is and does nothing.
+// 001 §3.2.43 - 48. R: a pointer out of range is not changed and has no effect.
 void MotorCommands::act_on_pointers() {
     using enum fastmac::Group;
     struct Pointer {

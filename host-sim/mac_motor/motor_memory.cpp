@@ -7,7 +7,7 @@ namespace {
 
 using Kind = Cell::Kind;
 
-/// Of each number of MAC50-141; the second of a LongInt does not count.
+/// For each number of MAC50-141; the second number of a LongInt is unused.
 using Kinds = std::array<Kind, 257>;
 
 struct Row {
@@ -57,7 +57,7 @@ constexpr std::int32_t kInPosWindow = 32;
 constexpr std::int32_t kInPosCount = 3;
 constexpr std::int32_t kUserInterfaceFastMac = 3;
 
-/// Fixed-point coefficients; the folder's README has their design.
+/// Fixed-point coefficients; their design is in the folder's README.
 struct Filters {
     double one_f, one_vf, one_if;  // what is 1.0 in FF, VB and IB; in VF; in IF
 };
@@ -111,8 +111,8 @@ void write_current_loop(MotorMemory& memory) {
     memory.set(cell::DEGCMAX, 696);  // 85 degrees
 }
 
-/// 001 §3.2.153 to §3.2.158, 004: what tells motors apart. R: the manuals give no encoding, so these are
-/// numbers that no motor has: 140, 999140008 at address 8, 99, and "VIRT".
+/// 001 §3.2.153 to §3.2.158, 004: the identification of a motor. R: the manuals give no encoding, so these
+/// are numbers of no real motor: 140, 999140008 at address 8, 99, and "VIRT".
 void write_identity(MotorMemory& memory, std::uint8_t address) {
     std::int32_t type = 0;
     for (const char c : registers::name_of(memory.model()).substr(3)) type = 10 * type + (c - '0');

@@ -3,7 +3,7 @@
 namespace nplc::sim {
 namespace {
 
-// R: 004 names no limits for these.
+// R: 004 gives no limits for these.
 constexpr std::int32_t kLowBus = 135;     // U_BUS below 120 V
 constexpr std::int32_t kHighBus = 506;    // U_BUS above 450 V (004), 0.888798 V each
 constexpr std::int32_t kLowLogic = 1340;  // U_24V below 18 V
@@ -34,8 +34,7 @@ void MotorMonitor::watch_limits() {
     if (limited && (state_.p_ist() < low || state_.p_ist() > high)) modes_.fail(err::PLIM_ERR);
 }
 
-// 001 §4.5.6. R: UV_V_SOLL0 acts if the bit is set; MAC800, whose UVMIN is "not used", has a limit of its
-// own.
+// 001 §4.5.6. R: UV_V_SOLL0 acts if the bit is set; MAC800, whose UVMIN is "not used", has its own limit.
 void MotorMonitor::watch_supply() {
     const std::int64_t voltage = memory_.get(cell::U_SUPPLY);
     const std::int64_t least = state_.is_mac800() ? kLowBus : memory_.get(cell::U_MIN_SUP);
@@ -59,7 +58,7 @@ void MotorMonitor::watch_supply() {
     if ((handle & kUvGoPassive) != 0) modes_.go_passive(true);
 }
 
-// 001 §3.2.35 bit 11: IX_ERR is shown and stops nothing. MAC800's IPEAK_ERR does (R).
+// 001 §3.2.35 bit 11: IX_ERR is only shown and does not stop the motor. MAC800's IPEAK_ERR does (R).
 void MotorMonitor::watch_currents() {
     if (!servo_.current_at_the_end()) return;
     if (state_.is_mac800()) return modes_.fail(state_.bits().over_current);
@@ -71,7 +70,7 @@ void MotorMonitor::watch_mac800() {
     if (is_above(cell::DEGC, cell::DEGCMAX)) modes_.fail(err800::DEGC_ERR);
     if (memory_.get(cell::U_SUPPLY) > kHighBus) modes_.fail(err800::OV_ERR);
     if (memory_.get(cell::U_24V) < kLowLogic) modes_.fail(err800::U24V_ERR);
-    state_.set_error_bits(err800::OLD_FILT_ERR, !servo_.filters_answer());  // R: shown, and stops nothing
+    state_.set_error_bits(err800::OLD_FILT_ERR, !servo_.filters_answer());  // R: shown only
     if (surroundings_.encoder_broken) modes_.fail(err800::INDEX_ERR);
 }
 

@@ -7,7 +7,7 @@
 namespace nplc::sim {
 namespace {
 
-constexpr double kFastest = 4096;  // counts/sample, 31,250 rpm on MAC50-141: keeps a wild load in range
+constexpr double kFastest = 4096;  // counts/sample, 31,250 rpm on MAC50-141: limits extreme loads
 constexpr std::int64_t kFarthest = std::int64_t{1} << 42;  // counts
 
 /// Halves in an outer sample: the 15th root of 1/2.
@@ -85,8 +85,8 @@ const MechanicalStop* Plant::stop_beyond() const {
     return nullptr;
 }
 
-/// A spring in implicit steps, which no stiffness can set swinging: the velocity is the one that the force at
-/// the end of the step leaves.
+/// A spring in implicit steps, stable at any stiffness: the velocity results from the force at the end of the
+/// step.
 void Plant::press(const MechanicalStop& stop, std::int64_t from) {
     const std::int64_t edge = edge_of(stop) * kCount;
     if (stop.spring_1024 <= 0) {
@@ -99,7 +99,7 @@ void Plant::press(const MechanicalStop& stop, std::int64_t from) {
     const double slope = std::min(torque * of_one_, kSteepest);
     const double depth = static_cast<double>(from - edge) / static_cast<double>(kCount);
     velocity_ = std::clamp((velocity_ - depth * slope) / (1 + slope), -fastest_, fastest_);
-    if ((velocity_ > 0) != (depth + velocity_ > 0)) velocity_ *= thrown_;  // pushed out, not thrown
+    if ((velocity_ > 0) != (depth + velocity_ > 0)) velocity_ *= thrown_;  // pushed out without rebound
     position_ = from + static_cast<std::int64_t>(velocity_ * static_cast<double>(kCount));
 }
 

@@ -71,7 +71,7 @@ void Coil::step(const Setup& setup, bool start, std::int64_t travel_16) {
     }
 }
 
-/// The way there and back laid out as one ring: from P1 to P4 in its first half, back in its second.
+/// The way there and back as a ring: from P1 to P4 in its first half, back in its second.
 void Coil::travel(const Setup& setup, std::int64_t travel_16) {
     const std::int64_t left = 16 * setup.left_thread;
     const std::int64_t width = 16 * setup.right_thread - left;

@@ -5,7 +5,7 @@
 namespace nplc::sim {
 namespace {
 
-constexpr double kLeastGain = 1e-6;       // below it no FNC_OUT would have helped
+constexpr double kLeastGain = 1e-6;       // below it no FNC_OUT could have corrected it
 constexpr double kCorrectionBound = 1e8;  // 1/16 counts/sample
 
 }  // namespace
@@ -18,10 +18,10 @@ void Regulator::use(const Coefficients& coefficients) {
     }
 }
 
-/// Takes `excess` of torque back out of the filters, as if FNC_OUT had been another.
+/// Removes `excess` torque from the filters, as if FNC_OUT had been different.
 std::int32_t Regulator::correct(double excess, double kvout, Newest& newest) const {
     const double gain = c_.ff[0] * c_.vfx[0] * kvout;
-    if (gain < kLeastGain) {  // R: coefficients that no velocity can answer for: the output alone is held
+    if (gain < kLeastGain) {  // R: no velocity can correct these coefficients: only the output is limited
         newest.torque += excess / std::max(kvout, kLeastGain);
         return 0;
     }
@@ -32,9 +32,8 @@ std::int32_t Regulator::correct(double excess, double kvout, Newest& newest) con
     return correction;
 }
 
-// VF is given the sum of its input as it would be: the lag less what the filters still hold. With two poles
-// at 1 its output rises by the sum of its numerator over what else its denominator is at 1, for each unit of
-// that.
+// Sets the sum of VF's input to its steady value: the lag minus what the filters hold. With two poles at 1
+// its output rises, per unit of that, by the sum of its numerator over the rest of its denominator at 1.
 void Regulator::restart(std::int32_t velocity) {
     reset();
     lag_16_ = velocity;

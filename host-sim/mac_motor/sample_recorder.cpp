@@ -50,7 +50,7 @@ SampleBuffer::Sample SampleRecorder::sampled_registers() const {
     return sample;
 }
 
-// A REWIND that no sample has seen yet counts too, or a quick reader would miss the first samples.
+// A REWIND that no sample has processed yet counts too, or a fast reader would miss the first samples.
 SampleBuffer::Sample SampleRecorder::next() {
     if ((state_.control() & state_.bits().rewind) != 0) rewind();
     const SampleBuffer::Sample sample = samples_.next();

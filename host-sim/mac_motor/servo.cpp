@@ -10,7 +10,7 @@
 namespace nplc::sim {
 namespace {
 
-constexpr double kAtLimit = 10000;  // I2T and UIT at what is borne for ever: the limits' default
+constexpr double kAtLimit = 10000;  // I2T and UIT at the continuous rating: the limits' default
 
 int steps_of(Servo::Depth depth) {
     return depth == Servo::Depth::current_loop ? kInnerSamples : 1;
@@ -26,7 +26,7 @@ double kvout_of(const MotorMemory& memory) {
     return memory.get(cell::KVOUT) / 256.0;
 }
 
-/// Of the three currents, at the torque that is borne for ever.
+/// Sum of the three squared currents at the continuous torque.
 double nominal_squares_of(const MotorConstants& c) {
     const double nominal = c.full_current / 3;
     return 1.5 * nominal * nominal;
@@ -74,7 +74,7 @@ std::int32_t Servo::coast() {
     return static_cast<std::int32_t>(last_counts_ - before);
 }
 
-/// Coefficients are worked out anew only when one of their registers was written.
+/// Coefficients are recomputed only when one of their registers was written.
 void Servo::use_settings(const MotorMemory& memory) {
     const Cell forwards = is_mac800(memory.model()) ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;
     constexpr std::int32_t kTurn = CurrentRegulator::kTurn;
@@ -103,7 +103,7 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
 }
 
 void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
-    // By far the most of all samples are by torque and without a watcher: in the loop itself.
+    // Most samples are controlled by torque and have no watcher: handled inside the loop.
     const bool by_torque = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque;
     const bool plain = by_torque && watcher == nullptr;
     double squares = 0;
@@ -207,7 +207,7 @@ Regulator::Input Servo::regulator_input(const Drive& drive) const {
             .kvout = kvout_};
 }
 
-/// The speed regulator is passive. Takes what MANI and TESTU are set to.
+/// The speed regulator is passive. Uses the values of MANI and TESTU.
 std::int32_t Servo::unregulated_torque(const Drive& drive, const MotorMemory& memory) {
     regulator_.reset();
     if (drive.kind != Drive::Kind::voltage || drive_.kind != Drive::Kind::voltage) test_samples_ = 0;
@@ -230,8 +230,8 @@ std::int32_t Servo::unregulated_torque(const Drive& drive, const MotorMemory& me
     }
 }
 
-// 001 §3.2.140. R: by one a sample, so that what a turning shaft drives through the shorted windings averages
-// out.
+// 001 §3.2.140. R: by one per sample, so that currents of a turning shaft through the shorted windings
+// average out.
 void Servo::follow_offsets(MotorMemory& memory) const {
     const PerPhase<std::int32_t> currents = inner_.regulator().measured().integers();
     const int measured = is_mac800(memory.model()) ? 2 : 3;
@@ -267,14 +267,14 @@ void Servo::show_currents(MotorMemory& memory) const {
     for (int p = 0; p < 3; ++p) memory.set(cell::EMK_A[p], emf[static_cast<std::size_t>(p)]);
 }
 
-// 001 §3.2.16, §3.2.18. R: leaky sums that come to rest at 10000 with what is borne for ever.
+// 001 §3.2.16, §3.2.18. R: leaky integrators that settle at 10000 with the continuous rating.
 void Servo::warm(double squares, double regenerated) {
     i2t_ += (squares * heat_of_square_ - i2t_) * copper_share_;
     if (uit_ <= 0 && regenerated <= 0) return;
     uit_ += (regenerated * dumped_of_watt_ - uit_) * dump_share_;
 }
 
-/// What was written into the registers since is what the sums go on from.
+/// Values written into the registers replace the integrators' state.
 void Servo::take_sums(const MotorMemory& memory) {
     if (memory.get(cell::I2T) != i2t_shown_) i2t_ = memory.get(cell::I2T);
     if (memory.get(cell::UIT) != uit_shown_) uit_ = memory.get(cell::UIT);

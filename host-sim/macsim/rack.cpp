@@ -5,7 +5,7 @@
 namespace nplc::sim {
 namespace {
 
-/// A motor that pauses is asked again after this long.
+/// Poll interval of a motor that pauses.
 constexpr Time kLongestStep = std::chrono::microseconds{250};
 
 }  // namespace

@@ -25,20 +25,21 @@ struct RackOptions {
     bool old_register_codes = false;
 };
 
-/// Virtual motors on their lines, in virtual time: characters take their time in both directions, and the
-/// motors sample at their own rates. The same calls give the same bytes.
+/// Virtual motors on their lines, in virtual time, with real character times and sample rates. The same calls
+/// give the same bytes.
 class Rack {
   public:
     explicit Rack(const RackOptions& options);
 
-    /// Around the first unit; both outlive the rack. advance() may then throw EndlessRules.
+    /// Plays the scenario on the first unit; both parameters must outlive the rack. advance() may then throw
+    /// EndlessRules.
     void play(const Scenario& scenario, const Names& names) { stage_.emplace(motor(0), scenario, names); }
 
-    /// Does these to it too, from now on; after play().
+    /// Adds these actions from now on; after play().
     void also(Actions actions) { stage_->also(std::move(actions), now_); }
 
     Time now() const { return now_; }
-    /// What a client sends waits for the line to be free; beyond 64 KiB it is lost.
+    /// A client's bytes wait for the line to be free; beyond 64 KiB they are lost.
     void send_fastmac(std::span<const std::uint8_t> bytes) { fastmac_.send(bytes); }
     void send_mactalk(std::span<const std::uint8_t> bytes) { mactalk_.send(bytes); }
     void advance(Time to);

@@ -6,10 +6,17 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::uint32_t kCanRate = 250'000;
-/// How often a module on CAN is asked whether it has booted.
+/// Poll interval for a boot-up message of a module on CAN.
 constexpr Time kAskPeriod = std::chrono::milliseconds{1};
 constexpr int kGateway = 0;
 constexpr int kModule = 1;
+
+/// When what would arrive now does.
+Time late(Time now, const LineFaults& by) {
+    const Time arrival = now + by.late;
+    if (by.together == Time(0)) return arrival;
+    return arrival + by.together - Time(1) - (arrival - Time(1)) % by.together;
+}
 
 std::uint32_t rate_of(const MidiDriveOptions& options) {
     if (options.rate != 0) return options.rate;
@@ -27,7 +34,7 @@ MidiOptions module_options(const MidiDriveOptions& options) {
 
 bool VirtualCanPort::write(const ports::CanFrame& frame) {
     if (state_ == ports::CanState::down || state_ == ports::CanState::bus_off) return false;
-    if (!loses()) bus_.send(frame, kGateway);
+    if (!loses(loss_of_sent_)) bus_.send(frame, kGateway);
     return true;
 }
 
@@ -52,7 +59,8 @@ bool VirtualCanPort::restart() {
 void VirtualCanPort::receive(const base::CanFrame& frame) {
     const auto lets_in = [&](const ports::CanFilter& f) { return ((frame.id ^ f.id) & f.mask) == 0; };
     if (filters_ && std::none_of(filters_->begin(), filters_->end(), lets_in)) return;
-    if (state_ == ports::CanState::down || state_ == ports::CanState::bus_off || loses()) return;
+    if (state_ == ports::CanState::down || state_ == ports::CanState::bus_off) return;
+    if (loses(loss_of_received_)) return;
     received_.push_back(frame);
 }
 
@@ -89,15 +97,19 @@ bool MidiDrive::service_can(Time now) {
             if (!cut_ && module_.is_on()) bus_.send(*frame, kModule);
         }
         const auto heard = bus_.take(now);
-        if (!heard) return any;
+        if (!heard) break;
         if (cut_) continue;
         if (heard->sender == kGateway) {
             can_end_.receive(heard->frame);
         } else {
-            can_port_.receive(heard->frame);
-            any = true;
+            coming_.emplace_back(late(now, lateness_), heard->frame);
         }
     }
+    for (; !coming_.empty() && coming_.front().first <= now; coming_.pop_front()) {
+        can_port_.receive(coming_.front().second);
+        any = true;
+    }
+    return any;
 }
 
 Time MidiDrive::next_event(Time now) const {
@@ -108,6 +120,7 @@ Time MidiDrive::next_event(Time now) const {
     if (is_can_) {
         consider(bus_.next_event());
         consider(asked_ + kAskPeriod);
+        if (!coming_.empty()) consider(coming_.front().first);
         if (!bus_.is_idle() && !bus_.next_event()) consider(now);
         return next;
     }
@@ -121,6 +134,19 @@ Time MidiDrive::next_event(Time now) const {
 void MidiDrive::cut(bool cut) {
     cut_ = cut;
     cut ? line_.cut() : line_.restore();
+}
+
+void MidiDrive::cut(bool to_drive, bool from_drive) {
+    can_port_.lose(to_drive ? 1 : 0, from_drive ? 1 : 0);
+    line_.to_motor().set_faults({.drop = to_drive ? 1.0 : 0.0});
+    LineFaults faults = lateness_;
+    faults.drop = from_drive ? 1 : 0;
+    line_.from_motor().set_faults(faults);
+}
+
+void MidiDrive::delay(Time late, Time together) {
+    lateness_ = {.late = late, .together = together};
+    line_.from_motor().set_faults(lateness_);
 }
 
 void MidiDrive::power(bool on) {

@@ -135,7 +135,7 @@ bool MidiModule::prepare(std::uint8_t number, std::uint32_t data) {
     return true;
 }
 
-/// R: without anything prepared nothing happens, and nothing is refused.
+/// R: without a prepared command there is no effect, and no refusal.
 bool MidiModule::start_prepared() {
     if (!is_on() || !prepared_ || deaf()) return true;
     const MidiMotion::Segment prepared = *prepared_;

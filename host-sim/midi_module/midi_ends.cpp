@@ -6,14 +6,14 @@
 namespace nplc::sim {
 namespace {
 
-/// Start, identifier, control, check sum, acknowledgement, end and the pause after it.
+/// Start, identifier, control, check sum, acknowledgement, end and interframe space.
 constexpr std::int64_t kBitsAround = 47;
 
 }  // namespace
 
 namespace v24 = protocol::midi_v24;
 
-/// R: to FFh address 00 answers; what was damaged is answered by whom it seems to have been meant for.
+/// R: address 00 answers to FFh; a damaged request is answered by the module whose address it then has.
 bool MidiV24End::answers(std::uint8_t address) const {
     const std::uint8_t own = module_.memory().address;
     return address == own || (address == v24::kGeneral && own == 0);
@@ -85,7 +85,8 @@ void MidiCanEnd::receive(const base::CanFrame& frame) {
     }
 }
 
-/// 003 §V.5. R: out of order nothing happens, and an address outside 1..127 is answered with error code 1.
+/// 003 §V.5. R: out of sequence it has no effect, and an address outside 1..127 is answered with error code
+/// 1.
 void MidiCanEnd::configure(const can::Request& request) {
     if (request.kind == Ask::configure) {
         configuring_ = true;
@@ -112,7 +113,7 @@ void MidiCanEnd::serve(const can::Request& request) {
     if (known && request.kind == Ask::query) value = module_.answer(number, request.sub_index);
     if (known && request.kind == Ask::command)
         done = module_.execute(number, request.sub_index, request.data);
-    // 003 §V.8: of a general message address 1 alone answers.
+    // 003 §V.8: only address 1 answers a general message.
     if (general && own != 1) return;
     send({.kind = value  ? Say::value
                   : done ? Say::accepted

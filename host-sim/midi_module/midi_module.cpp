@@ -107,7 +107,7 @@ void MidiModule::look_at_switches() {
 void MidiModule::change_input(Input input, bool active) {
     if (!inputs_.set(input, active)) return;
     if (input == Input::security) {
-        // 003 §IV: it holds the module in reset; R: a release is a start.
+        // 003 §IV: the input holds the module in reset; R: its release is a start.
         active ? motion_.cut_power() : start(kDeafTicks);
         return;
     }
@@ -130,7 +130,7 @@ void MidiModule::check_supply() {
     if (supply_.trips_supply()) trip(midi::kSupplyTrip);
 }
 
-/// Causes that are still there trip again at once.
+/// Causes that persist trip again at once.
 void MidiModule::check_world() {
     check_supply();
     if (temperature_ > midi::kMotorTrip) trip(midi::kThermalTrip);

@@ -57,7 +57,7 @@ void MidiMotion::go_to(std::int32_t target) {
     if (profile_.running()) schedule(profile_.interval());
 }
 
-/// Segments follow each other without a gap; one of no steps takes no time (R).
+/// Segments follow each other without a gap; one with no steps takes no time (R).
 void MidiMotion::next_segment() {
     while (!segments_.empty()) {
         const auto [number, data] = segments_.front();
@@ -155,8 +155,8 @@ void MidiMotion::end() {
     remember();
 }
 
-/// The place of now becomes 0. R: the target keeps its value in the new coordinates; where that lies behind
-/// or too near, the ramp is finished and the rest is made up at unstall speed.
+/// The present position becomes 0. R: the target keeps its value in the new coordinates; if it is then behind
+/// or too near, the ramp is finished and the rest is moved at unstall speed.
 void MidiMotion::set_origin() {
     const std::int64_t before = position_;
     position_ = 0;
@@ -197,7 +197,7 @@ bool MidiMotion::can_turn(int direction) const {
     return powered_ && shaft_.can_turn(direction, torque());
 }
 
-/// The supply is gone: the shaft goes on as fast as it is.
+/// The supply is off: the shaft coasts at its present speed.
 void MidiMotion::run_out() {
     const bool turns = mode_ == Mode::coast || (profile_.running() && !pause_ && can_turn(direction_));
     const Ticks interval = mode_ == Mode::coast ? coast_interval_ : profile_.last_interval();
@@ -279,7 +279,7 @@ void MidiMotion::step_profile() {
     end();
 }
 
-/// False: braking is cut. The shaft goes on as it was; what is too far is made up at unstall speed.
+/// False: braking is cut. The shaft coasts; the excess distance is moved back at unstall speed.
 bool MidiMotion::brake() {
     supply_.brake(!braking_is_cut());
     events_.on_braking();

@@ -7,8 +7,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::int64_t kFraction = 1 << 20;
-/// R: of the holding torque the friction, as the virtual JVL motors have it, which slows down a shaft without
-/// supply.
+/// R: friction as a share of the holding torque, as for the virtual JVL motors; slows down a coasting shaft.
 constexpr std::int64_t kFriction = 5, kWhole = 1'023;
 
 }  // namespace
@@ -41,9 +40,8 @@ void MidiShaft::let_go(std::int64_t increments_per_second) {
     rest_ = 0;
 }
 
-/// 003 §III and §VII 19h: at rest the shaft is held by TORQUE's share of the holding torque, half of it in
-/// standby, and by nothing with power off. R: what pulls more gives it the acceleration of the rest; a shaft
-/// that is held again stands at once.
+/// 003 §III and §VII 19h: at rest the holding torque is TORQUE's share, half of it in standby, none with
+/// power off. R: the torque beyond that accelerates the shaft; a shaft that is held again stops at once.
 std::int32_t MidiShaft::drag(std::optional<std::int32_t> torque) {
     const std::int32_t beyond = std::abs(load_) - torque.value_or(0);
     if (held_ || (torque && beyond <= 0)) {

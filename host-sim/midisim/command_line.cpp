@@ -18,7 +18,7 @@ registers::midi::Model model(const std::string& option, const std::string& text)
     throw std::invalid_argument(fmt::format("{} \"{}\": write MAC23, MAC34-1 or MAC34-2", option, text));
 }
 
-/// 003 §V.1: on CAN 0 is for all.
+/// 003 §V.1: on CAN address 0 is the broadcast address.
 std::uint8_t address(const std::string& option, const std::string& text, bool on_can) {
     return static_cast<std::uint8_t>(whole_value(option, text, on_can ? 1 : 0, kMaxAddress));
 }

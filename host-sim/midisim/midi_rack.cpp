@@ -5,7 +5,7 @@
 namespace nplc::sim {
 namespace {
 
-/// A module that pauses is asked again after this long.
+/// Poll interval of a module that pauses.
 constexpr Time kLongestStep = std::chrono::microseconds{250};
 
 constexpr std::size_t kMostWaiting = 256;
@@ -41,7 +41,7 @@ void MidiRack::advance(Time to) {
     }
 }
 
-/// A module at another rate hears framing errors.
+/// A module at another baud rate receives framing errors.
 void MidiRack::serve() {
     while (const auto byte = line_.to_device.take(now_)) {
         for (std::size_t i = 0; i < size(); ++i) {

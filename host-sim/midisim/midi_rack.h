@@ -38,12 +38,12 @@ class MidiModules {
 /// Virtual modules on one serial line, in virtual time. The same calls give the same bytes.
 class MidiRack final : public MidiModules<MidiV24End> {
   public:
-    /// `baud` is the client's; 0: it follows the first module's, as a client does that changes its own with
-    /// it.
+    /// `baud` is the client's; 0: it follows the first module's, like a client that changes its baud rate
+    /// together with the module.
     MidiRack(const std::vector<MidiUnit>& units, std::uint32_t baud);
 
     Time now() const { return now_; }
-    /// Waits for the line to be free; beyond 64 KiB it is lost.
+    /// Queued until the line is free; beyond 64 KiB bytes are lost.
     void send(std::span<const std::uint8_t> bytes) { line_.send(bytes); }
     void advance(Time to);
     /// What has arrived at the client since the last call.
@@ -60,13 +60,14 @@ class MidiRack final : public MidiModules<MidiV24End> {
     Time now_{0};
 };
 
-/// Virtual modules on a CAN port. The bus is whatever the port is; the modules' own time is virtual.
+/// Virtual modules on a CAN port. The bus is that of the port; the modules' own time is virtual.
 class MidiCanRack final : public MidiModules<MidiCanEnd> {
   public:
     MidiCanRack(const std::vector<MidiUnit>& units, ports::CanPort& port);
 
-    /// Frames in, time on, frames out. What the port does not take waits; off the bus it is dropped, as by a
-    /// module that is reset, and once a second the port is asked to come back (R).
+    /// Receives frames, advances the time, sends frames. Frames that the port does not accept wait; when
+    /// bus-off they are dropped, as by a module that is reset, and once a second a restart of the port is
+    /// requested (R).
     void advance(Time to);
 
   private:

@@ -11,17 +11,17 @@ namespace nplc::sim {
 
 struct MidisimOptions {
     std::vector<MidiUnit> units = {{}};
-    std::string v24;         ///< endpoint, or empty: then `can` is not
+    std::string v24;         ///< endpoint; empty: `can` is used
     std::string can;         ///< interface
     std::uint32_t baud = 0;  ///< of the client; 0: the first module's
-    std::string control;     ///< endpoint or "-", or empty: where it is said what happens to the first module
-    std::string eeprom;      ///< file of the first module; the others' with their address behind it
+    std::string control;     ///< endpoint or "-", or empty: the control port for the first module
+    std::string eeprom;      ///< file of the first module; the others' have their address appended
     double speed = 1;
 };
 
 DeviceCommandLine<MidisimOptions> parse_midisim(int argc, const char* const* argv);
 /// Modules on a serial line with a client, or on a CAN interface of this machine, with their EEPROM files;
-/// `error` says in one line what could not be opened.
+/// `error`: one line if something could not be opened.
 std::unique_ptr<VirtualDevices> open_modules(const MidisimOptions& options, std::string& error);
 
 }  // namespace nplc::sim

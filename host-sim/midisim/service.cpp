@@ -70,7 +70,7 @@ class EepromMemory final : public DeviceMemory {
     void restore() override { module_.set_memory(taken_); }
 
   private:
-    /// 000 §VI 03h: of 0..9 only some. A module on CAN has no address 0.
+    /// 000 §VI 03h: only some of 0..9 are valid. A module on CAN has no address 0.
     bool is_legal() const {
         return midi::pack(*midi::find_command(midi::END_STOPS), taken_.stops).has_value() &&
                !(module_.is_can() && taken_.address == 0);
@@ -94,7 +94,7 @@ std::string describe(const MidiModule& module) {
     return text + fmt::format(" status {:08X}", module.status());
 }
 
-/// What does not depend on the line they are on.
+/// The part that does not depend on the line.
 template <class Rack>
 class ModuleService : public VirtualDevices {
   public:
@@ -112,7 +112,7 @@ class ModuleService : public VirtualDevices {
     }
 
   protected:
-    /// Answers what went wrong.
+    /// Returns an error, or an empty text.
     std::string load(const MidisimOptions& options) {
         names_.drive = registers::find_drive(midi::facts_of(rack_->module(0).model()).name);
         names_.motor_alone = true;
@@ -124,7 +124,7 @@ class ModuleService : public VirtualDevices {
         return error;
     }
 
-    /// What is said at the control port, and what is due of it.
+    /// Handles lines of the control port, and actions that are due.
     void control(Time now) {
         if (!control_.is_open()) return;
         control_.serve([this, now](std::string_view line) {

@@ -18,7 +18,7 @@ bool has_pulses(const Scenario& scenario) {
     return any(scenario.at) || any(scenario.every) || any(scenario.when);
 }
 
-/// 001 §3.2.36: 00 in USERINTF is the pulse input, its other bits stay.
+/// 001 §3.2.36: USERINTF = 00 selects the pulse input; other bits are kept.
 void free_the_pins(MacMotor& motor) {
     constexpr std::uint32_t kUserInterface = 3;
     const std::uint32_t bits = motor.stored().read(registers::CNTRL_BITS, false);

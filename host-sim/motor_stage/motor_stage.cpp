@@ -47,7 +47,7 @@ struct Actor {
     void operator()(const action::MotorSupply& supply) const {
         if (!supply.logic) {
             motor.supply().set_source(supply.volts);
-            return motor.supply().settle();  // a motor at rest would never empty its bus
+            return motor.supply().settle();  // the bus of a motor at rest would never discharge
         }
         motor.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
     }

@@ -19,7 +19,7 @@ constexpr const char* kExitCodes =
     "in a file.";
 constexpr const char* kUnits = "Times are written 500ms, 5s, 2min; shares 1%, 0.5%.";
 
-/// An option whose text is read by `read`, which answers false if it is not as wanted.
+/// An option whose text is read by `read`, which returns false for an invalid text.
 void add_read(arguments::App& app, const std::string& name, const std::string& type, const std::string& help,
               const std::string& wanted, std::function<bool(const std::string&)> read) {
     app.add_option_function(
@@ -111,7 +111,7 @@ std::vector<std::string> model_names() {
     return names;
 }
 
-/// For programs outside.
+/// Options for outside programs.
 void add_doors(arguments::App& app, RunOptions& options) {
     app.add_option(
            "--mactalk", options.mactalk,
@@ -132,7 +132,7 @@ void add_doors(arguments::App& app, RunOptions& options) {
         ->type_name("ADDRESS:PORT");
 }
 
-/// What happens around the gateway.
+/// Options for the gateway's environment.
 void add_world(arguments::App& app, RunOptions& options) {
     app.add_option("--scenario", options.scenario,
                    "inputs, line faults and expectations, see host-sim/scenario")

@@ -14,10 +14,10 @@ struct ScanOptions {
     std::string stimulus;
 };
 
-/// Help or version has been asked for and printed.
+/// Help or version was requested and printed.
 struct NothingToDo {};
 
-/// To be printed.
+/// A text to be printed.
 struct Page {
     std::string text;
 };

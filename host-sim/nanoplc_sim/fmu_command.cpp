@@ -24,7 +24,7 @@ void check_output(const FmuCommand& command, const std::string& input, std::stri
                                  command.output, what, input));
 }
 
-/// As far as the machine is in a gateway's program.
+/// Takes the part of a gateway's program that the machine needs.
 void take_program(fmu::FmuOptions& options, const FmuCommand& command) {
     const Program program = load_program(command.program, command.symbols);
     check_output(command, command.program, "program");

@@ -10,9 +10,9 @@ namespace nplc::sim {
 /// The command line of `nanoplc-sim fmu`.
 struct FmuCommand {
     std::string output;
-    std::string program;                    ///< of the gateway; empty: the motor alone
-    std::optional<std::string> symbols;     ///< as of `run`
-    std::optional<registers::Model> motor;  ///< the program's own without it
+    std::string program;                    ///< the gateway's; empty: the motor alone
+    std::optional<std::string> symbols;     ///< as for `run`
+    std::optional<registers::Model> motor;  ///< empty: the program's own
     std::optional<std::string> plant;       ///< file
     int fmi = 3;
     std::optional<std::string> windows;  ///< file of the library for Windows

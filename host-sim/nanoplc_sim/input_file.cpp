@@ -49,7 +49,7 @@ std::string as_text(std::string bytes, const std::string& path, const std::strin
     return bytes;
 }
 
-/// What a text that was named as a table may be, and what to do with it.
+/// Advice for a text file that was given as a table.
 std::string advice_for_text(const std::string& path) {
     const auto with = [&](const char* extension) {
         return std::filesystem::path(path).replace_extension(extension).string();
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> bytes_of(const std::string& content, const std::string
                                  image.line == 0 ? "" : fmt::format(":{}", image.line), image.error));
 }
 
-/// Whatever begins with a byte such as '?' or FFh ends at once.
+/// A table that begins with a byte such as '?' or FFh ends at once.
 void refuse_empty(std::span<const std::uint8_t> bytes, const std::string& path) {
     const auto rest = bytes.subspan(std::min(bytes.size(), sequencer::kTermBytes));
     const auto is_all = [&](std::uint8_t value) {

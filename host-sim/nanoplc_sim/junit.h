@@ -7,8 +7,8 @@
 
 namespace nplc::sim {
 
-/// A scenario's expectations as JUnit's XML, which build servers show: one test case each, times in virtual
-/// seconds. What is no UTF-8 or cannot be printed becomes '?'.
+/// A scenario's expectations as JUnit XML for build servers: one test case each, times in virtual seconds.
+/// Invalid UTF-8 and unprintable characters become '?'.
 std::string junit_of(const std::vector<ExpectationResult>& outcomes, const std::string& scenario,
                      const std::string& program, Time end);
 

@@ -10,7 +10,7 @@ namespace fastmac = protocol::fastmac;
 
 namespace {
 
-/// Of the longest common subsequence of what is wanted from i on and what is done from j on.
+/// Lengths of the longest common subsequence of the wanted orders from i on and the executed ones from j on.
 class CommonLengths {
   public:
     template <class Same>
@@ -93,7 +93,7 @@ OrderAudit OrderAuditor::finish(const OnTheirWay& on_their_way) {
     return found_;
 }
 
-/// So many of both together, at least.
+/// Judges at least this many of both together.
 void OrderAuditor::judge(const OnTheirWay& on_their_way, std::size_t count) {
     const bool at_the_end = count == wanted_.size() + done_.size();
     const auto same = [&](std::size_t i, std::size_t j) { return wanted_[i].order == done_[j]; };
@@ -111,7 +111,7 @@ void OrderAuditor::judge(const OnTheirWay& on_their_way, std::size_t count) {
         const int preference = has_wanted && has_done ? lengths.at(i + 1, j) - lengths.at(i, j + 1) : 0;
         const bool is_under_way =
             has_wanted && std::binary_search(on_their_way.begin(), on_their_way.end(), wanted_[i].number);
-        // What is under way waits for its execution as long as it may.
+        // An order in progress may still be executed for as long as possible.
         const bool waits = is_under_way && !at_the_end && preference == 0;
         if (waits && !has_done) break;
         if (has_done && (!has_wanted || preference < 0 || waits)) {

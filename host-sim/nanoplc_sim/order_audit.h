@@ -10,12 +10,12 @@
 
 namespace nplc::sim {
 
-/// As the sequence gives it. `code`: the register code that the motor executes its commands by.
+/// The order as the sequence gives it. `code`: the register code with which the motor executes its commands.
 SentOrder as_sent(const Order& order, protocol::fastmac::RegisterCode code);
-/// NOP, 0Ah, 0Bh, 13h, 1Dh, 1Eh, 1Fh; and MODE_REG := 0, with which the gateway stops the motor by itself.
+/// NOP, 0Ah, 0Bh, 13h, 1Dh, 1Eh, 1Fh; and MODE_REG := 0, which the gateway sends by itself to stop the motor.
 bool concerns_the_link_only(const SentOrder& order);
 
-/// How many, and the first of them.
+/// Number of orders, and the first of them.
 struct OrderList {
     static constexpr std::size_t kKept = 8;
 
@@ -26,7 +26,7 @@ struct OrderList {
     bool empty() const { return count == 0; }
 };
 
-/// What the sequence ordered against what the motor executed. Left out on both sides: what
+/// The sequence's orders compared with those executed by the motor. Ignored on both sides:
 /// concerns_the_link_only().
 struct OrderAudit {
     OrderList missing;    ///< ordered and not executed
@@ -34,16 +34,16 @@ struct OrderAudit {
     OrderList unordered;  ///< executed and not ordered
 };
 
-/// Compares while both go on: the longest common subsequence. Equal orders at the front of both are done with
-/// at once. Behind a difference up to kMostWaiting of both together are kept; then the older half is judged,
-/// in the light of the newer one. `on_their_way`: the numbers, ascending, of what the driver has not
-/// finished, of the orders in turn, from 0.
+/// Compares both incrementally: the longest common subsequence. Equal orders at the front of both are removed
+/// at once. After a difference up to kMostWaiting of both together are kept; then the older half is judged,
+/// considering the newer one. `on_their_way`: the numbers, ascending from 0, of the orders that the driver
+/// has not finished.
 class OrderAuditor {
   public:
     static constexpr std::size_t kMostWaiting = 1024;
     using OnTheirWay = std::deque<std::size_t>;
 
-    /// `code`: the register code that the motor executes its commands by; the sequence's is the format
+    /// `code`: the register code with which the motor executes its commands; the sequence's is the format
     /// list's.
     explicit OrderAuditor(protocol::fastmac::RegisterCode code) : code_(code) {}
 
@@ -51,7 +51,7 @@ class OrderAuditor {
     void executed(const Order& order);
     /// To be called after them.
     void settle(const OnTheirWay& on_their_way);
-    /// Judges all that is left.
+    /// Judges all remaining orders.
     OrderAudit finish(const OnTheirWay& on_their_way);
 
   private:

@@ -30,7 +30,7 @@ panel::WebOptions web_options(const std::string& where) {
     return web;
 }
 
-/// The actions of one line as scenarios have them, or what is wrong with it.
+/// The scenario actions of one line, or its error.
 struct Read {
     Actions actions{};
     std::string error{};
@@ -152,7 +152,7 @@ PanelDoor::Found PanelDoor::find(std::size_t, std::uint32_t crc) {
 }
 
 std::string PanelDoor::keep(std::size_t, std::uint32_t crc, std::string_view text) {
-    symbols_.clear();  // what ran before has its names in program_, or has none
+    symbols_.clear();  // the previous program's names are in program_, or it had none
     symbols_[crc] = std::string(text);
     return {};
 }

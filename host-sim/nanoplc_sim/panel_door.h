@@ -14,12 +14,12 @@
 
 namespace nplc::sim {
 
-/// Virtual time as it follows the wall clock.
+/// Virtual time that follows the wall clock.
 class Pace {
   public:
     using Clock = std::chrono::steady_clock;
     explicit Pace(Clock::time_point now) : last_(now) {}
-    /// `speed`: virtual seconds in one of the wall clock's since the last call; 0 while time stands.
+    /// `speed`: virtual seconds per wall-clock second since the last call; 0 while time is stopped.
     Time virtual_time(Clock::time_point now, double speed) {
         passed_ += std::chrono::duration<double, std::nano>(now - last_) * speed;
         last_ = now;
@@ -31,19 +31,19 @@ class Pace {
     std::chrono::duration<double, std::nano> passed_{0};
 };
 
-/// The browser's panel on a run in real time; nothing without --panel. What is clicked comes on the panel's
-/// thread, waits, and is done by serve() on the run's.
+/// The browser panel of a run in real time; inactive without --panel. Requests arrive on the panel's thread,
+/// are queued, and are carried out by serve() on the run's thread.
 class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
   public:
-    /// Throws InputError if it cannot be had at `where`, ADDRESS:PORT.
+    /// Throws InputError if it cannot be opened at `where`, ADDRESS:PORT.
     PanelDoor(const std::optional<std::string>& where, const Program& program, faces::AxisModel& axis);
     PanelDoor(const PanelDoor&) = delete;
     PanelDoor& operator=(const PanelDoor&) = delete;
 
     bool is_open() const { return panel_ != nullptr; }
-    /// Answers browsers from now on, and prints where and with which token.
+    /// Starts to serve browsers, and prints address and token.
     void open();
-    /// Does what was asked for since the last call.
+    /// Carries out the requests since the last call.
     void serve(Session& session);
     double speed() const;
 
@@ -61,10 +61,10 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
   private:
     struct Wanted {
         std::string text;
-        bool blocks = false;  ///< the shaft, where it is
+        bool blocks = false;  ///< the shaft, at its present position
     };
     void perform(Session& session, const Wanted& wanted);
-    /// With mutex_ held.
+    /// Needs mutex_ locked.
     void add_to_record(double milliseconds, std::string_view text);
 
     const Program& program_;
@@ -72,8 +72,8 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
     std::vector<Wanted> wanted_;
     State state_;
     std::string record_;
-    std::map<std::uint32_t, std::string> symbols_;  ///< that came with uploads; the panel's thread only
-    std::unique_ptr<panel::Panel> panel_;           ///< the last one, for its thread uses all of the above
+    std::map<std::uint32_t, std::string> symbols_;  ///< from uploads; used by the panel's thread only
+    std::unique_ptr<panel::Panel> panel_;           ///< last member: its thread uses all of the above
 };
 
 }  // namespace nplc::sim

@@ -41,6 +41,18 @@ Program compile(const std::string& file) {
     return program;
 }
 
+/// A bit for each step that has terms, or that one leads to.
+std::uint64_t steps_in(std::span<const std::uint8_t> table) {
+    std::uint64_t steps = 1;
+    for (std::size_t at = 0; at + 2 * sequencer::kTermBytes <= table.size(); at += sequencer::kTermBytes) {
+        const sequencer::Term term = sequencer::decode(table.subspan(at).first<sequencer::kTermBytes>());
+        steps |= std::uint64_t{1} << (term.condition.step & 63U);
+        if (!term.is_flex && term.fast.next_step < sequencer::kNoSwitch)
+            steps |= std::uint64_t{1} << term.fast.next_step;
+    }
+    return steps;
+}
+
 /// Throws InputError, also for symbols that do not fit the table.
 void take_names(Program& program, const std::string& file, const std::string& otherwise) {
     std::string text = read_input(file, "a symbol file as `seqc build` writes it");
@@ -53,7 +65,7 @@ void take_names(Program& program, const std::string& file, const std::string& ot
     program.symbols_text = std::move(text);
 }
 
-/// Symbols that stand beside a table by chance need not fit.
+/// Symbols next to a table by chance need not fit.
 void take_names_beside(Program& program, const std::string& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return;
@@ -92,6 +104,7 @@ Program load_program(const std::string& file, const std::optional<std::string>& 
     program.table.resize((program.terms + 1) * sequencer::kTermBytes);
     program.crc32 = base::crc32(program.table);
     if (is_source) return program;
+    program.names.numbers = steps_in(program.table);
     if (symbols) {
         take_names(program, *symbols, "name the one that `seqc build` wrote with this table");
     } else {

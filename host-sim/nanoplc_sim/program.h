@@ -14,24 +14,24 @@ namespace nplc::sim {
 struct Program {
     std::string file;
     std::vector<std::uint8_t> table;  ///< Table::load takes it
-    /// As it is uploaded: the table, then the record of its set-points.
+    /// As uploaded: the table, then the record of its set-points.
     std::vector<std::uint8_t> content() const;
     std::size_t terms = 0;
-    std::uint32_t crc32 = 0;  ///< of the table, its end term included
-    std::string name;         ///< as the source has it; empty for a table without names
+    std::uint32_t crc32 = 0;  ///< of the table with its end term
+    std::string name;         ///< from the source; empty for a table without names
     Names names;
     const registers::DriveModel* drive = nullptr;  ///< as in Symbols
-    std::string symbols_text;                      ///< as F.sym holds it; empty for a table without names
-    std::string symbols;                           ///< the file that the names of a table come from, or empty
-    std::string nameless;  ///< one line for the user why a table's symbols were left out, or empty
+    std::string symbols_text;                      ///< content of F.sym; empty for a table without names
+    std::string symbols;                           ///< the file with a table's names, or empty
+    std::string nameless;  ///< one line for the user why a table's symbols were not used, or empty
     std::string remark;    ///< one line for the user about the source, or empty
 };
 
-/// `.seq` is compiled, anything else is read as a table. Its names come from `symbols`, which must fit, or
-/// from the file beside it if that fits. Throws InputError; for a source its message holds all of the
-/// compiler's diagnostics.
+/// `.seq` is compiled, any other file is read as a table. Its names come from `symbols`, which must fit, or
+/// from the symbol file next to it if that fits. Throws InputError; for a source its message contains all of
+/// the compiler's diagnostics.
 Program load_program(const std::string& file, const std::optional<std::string>& symbols = {});
-/// The symbols that load_program would read for a table, there or not; empty if none.
+/// The symbol file that load_program would read for a table, existing or not; empty if none.
 std::string symbols_of(const std::string& file, const std::optional<std::string>& symbols);
 
 }  // namespace nplc::sim

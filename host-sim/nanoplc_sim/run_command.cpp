@@ -83,7 +83,7 @@ using Clock = std::chrono::steady_clock;
 constexpr Time kSlice = std::chrono::milliseconds{50};
 constexpr auto kRefresh = std::chrono::milliseconds{100};
 constexpr std::chrono::milliseconds kKeyWait{5};
-/// A program at the port waits for each answer.
+/// A client program waits for each answer.
 constexpr std::chrono::milliseconds kPortWait{1};
 
 Scenario load_scenario(const RunOptions& options, const Names& names) {
@@ -102,7 +102,7 @@ bool wants_colour() {
     return host::is_terminal(stdout) && std::getenv("NO_COLOR") == nullptr;
 }
 
-/// A line on standard error that is written over and over; only where nobody else writes to the terminal.
+/// A line on standard error that is rewritten in place; only if nothing else writes to the terminal.
 class Progress {
   public:
     explicit Progress(bool on) : on_(on) {}
@@ -133,7 +133,7 @@ void run_fast(Session& session, const RunOptions& options, const volatile std::s
     }
 }
 
-/// The gateway's port for programs outside; nothing without --mactalk.
+/// The gateway's port for outside programs; inactive without --mactalk.
 class Door {
   public:
     Door(const RunOptions& options, faces::Seat& operators) {
@@ -148,7 +148,7 @@ class Door {
     void announce() const {
         if (is_open()) fmt::print("mactalk: {}\n", connections_->name());
     }
-    /// By the wall clock: virtual time stands while this process is halted.
+    /// By the wall clock: virtual time stops while this process is halted.
     void take_in(Session& session) {
         if (!is_open()) return;
         World& world = session.world();
@@ -215,7 +215,7 @@ void run_realtime(Session& session, Door& door, SimFaces& faces, PanelDoor& pane
     if (live) fmt::print("\r\033[K");
 }
 
-/// None unless asked for.
+/// Null unless requested.
 std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
     if (!options.flash) return nullptr;
     auto opened = hal_linux::FileStorage::open(*options.flash, World::kFlash);
@@ -223,8 +223,8 @@ std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
     return std::move(opened.storage);
 }
 
-/// A JVL motor stands in for the drive of a program unless one is asked for; the drive is slower to take
-/// orders, and waits.
+/// Without an explicit option a JVL motor replaces a program's drive; the real drive is slower to accept
+/// orders.
 void tell_stand_in(const RunOptions& options, const Program& program) {
     if (program.drive == nullptr || options.drive != nullptr || options.motor) return;
     const std::string_view drive = program.drive->name;
@@ -239,8 +239,8 @@ Program stored_program() {
     return program;
 }
 
-/// Before anything is written: no output may land on one of the run's own inputs or on another output, under
-/// whatever name. Throws InputError.
+/// To be called before anything is written: no output may overwrite one of the run's inputs or another
+/// output, under any name. Throws InputError.
 void check_outputs(const RunOptions& options) {
     std::vector<Output> outputs;
     const std::string symbols = symbols_beside_trace(options);

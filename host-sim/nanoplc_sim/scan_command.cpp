@@ -24,7 +24,7 @@ struct Column {
 constexpr std::array<Column, 4> kColumns{
     {{"dt_ms", 4'294'967'295U}, {"inputs", 63}, {"inpos", 1}, {"error", 1}}};
 
-/// Whatever a file may hold, a message stays one printable line.
+/// Makes any file content a single printable line.
 std::string shown(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string result;

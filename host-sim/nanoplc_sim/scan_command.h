@@ -16,7 +16,7 @@ struct StimulusRow {
 };
 
 /// CSV with the header `dt_ms,inputs,inpos,error` and plain decimal numbers; CR LF and blank lines at the end
-/// are taken too. Throws InputError with file and line.
+/// are accepted. Throws InputError with file and line.
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file);
 
 /// `nanoplc-sim scan`: the engine alone, one scan a row. CSV with the header
@@ -24,7 +24,7 @@ std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string
 /// 4 of 001 §6.1.9. `bytes` must be one that Table::load takes.
 std::string scan_csv(std::span<const std::uint8_t> bytes, const std::vector<StimulusRow>& rows);
 
-/// Prints nothing before everything is known to be good. Throws InputError.
+/// Prints nothing before all input is checked. Throws InputError.
 void run_scan(const std::string& table_file, const std::string& stimulus_file);
 
 }  // namespace nplc::sim

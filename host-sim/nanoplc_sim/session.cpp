@@ -18,7 +18,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr Time kDefaultLength = std::chrono::seconds{10};
-/// A motor that is there has answered by then.
+/// A connected motor has answered by then.
 constexpr Time kLongestStart = std::chrono::seconds{1};
 
 WorldOptions world_options(const RunOptions& options, const Names& names, const Scenario& scenario,
@@ -84,7 +84,7 @@ std::string_view in_words(gateway::SafeReason reason) {
     return "";
 }
 
-/// Which table a trace is of; no file's name, which could hold anything.
+/// Identifies the table of a trace; not by a file name, which could contain anything.
 std::string identity(const Program& program) {
     return fmt::format("{}table CRC-32 {:08X}",
                        program.name.empty() ? "" : fmt::format("program {}, ", program.name), program.crc32);
@@ -92,7 +92,7 @@ std::string identity(const Program& program) {
 
 constexpr std::string_view kLeftByTrace = "  \"trace\": {\"counts_per_rev\":";
 
-/// Symbols that an earlier run left; nobody else's.
+/// Removes symbols left by an earlier run only.
 void remove_left(const std::string& path) {
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -101,7 +101,7 @@ void remove_left(const std::string& path) {
     if (text.find(kLeftByTrace) != std::string::npos) std::filesystem::remove(path, ignored);
 }
 
-/// Of --inputs.
+/// Parses --inputs.
 unsigned input_named(std::string_view name, const Program& program) {
     std::string known;
     for (unsigned i = 0; i < kInputs; ++i) {
@@ -249,7 +249,7 @@ void Session::show() {
     if (runner_.ended()) ended_ = true;
 }
 
-/// Those of a drive of another family are not the sequence's.
+/// The orders of a drive of another family are not compared with the sequence's.
 void Session::follow_orders() {
     if (world_.drive() != nullptr) return;
     for (const SentOrder& order : last_.orders) auditor_.ordered(order);
@@ -324,8 +324,8 @@ bool Session::finish() {
     return runner_.failures() == 0;
 }
 
-/// What a plot of the trace wants to know: the program's names, and what a count is. Of a table without names
-/// there are none; those of an earlier trace go.
+/// Writes the data for a plot of the trace: the program's names and the unit of a count. For a table without
+/// names those of an earlier trace are removed.
 void Session::leave_symbols() const {
     const std::string path = symbols_beside_trace(options_);
     if (path.empty()) return;
@@ -412,7 +412,7 @@ void Session::remember(const std::string& remark) {
     remarks_.push_back(host::printable(remark));
 }
 
-/// What a scenario says of how it ended must not be taken for "all is well".
+/// A scenario's remarks at its end must not be mistaken for success.
 void Session::last_remarks() const {
     if (remarked_ != now()) return;
     for (const std::string& remark : remarks_)

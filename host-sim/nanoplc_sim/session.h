@@ -16,29 +16,29 @@
 
 namespace nplc::sim {
 
-/// One run: the world, the scenario that plays on it and everything that is written about it.
+/// One run: the world, the scenario that plays on it and all its output.
 class Session {
   public:
-    /// `columns`: of the terminal, as for Timeline.
+    /// `columns`: width of the terminal, as for Timeline.
     Session(const RunOptions& options, const Program& program, const Scenario& scenario,
             const Palette& palette, std::size_t columns = 0, ports::Storage* storage = nullptr);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Runs on to `limit` of virtual time or to the end. Throws EndlessRules, FileError.
+    /// Runs up to `limit` of virtual time or to the end. Throws EndlessRules, FileError.
     void advance(Time limit);
     bool ended() const { return ended_; }
     void stop() { ended_ = true; }
     Time now() const { return world_.now(); }
     std::optional<Time> length() const { return length_; }
 
-    /// For who counts what advance() does.
+    /// For callers that count steps of advance().
     void after_each_step(std::function<void()> look) { after_step_ = std::move(look); }
-    /// For faces and the user's port, between two advance().
+    /// For faces and the user port, between two calls of advance().
     World& world() { return world_; }
 
     void press(unsigned input);  ///< toggles it
-    /// What a person does to the machine, at this moment.
+    /// Carries out actions of the user at the present time.
     void act(Actions actions) {
         runner_.also(std::move(actions), now());
         show();
@@ -46,20 +46,20 @@ class Session {
     const Names& names() const { return program_.names; }
     const Snapshot& seen() const { return last_; }
 
-    /// Judges, writes the files and prints the summary. True if every expectation passed.
+    /// Judges the expectations, writes the files and prints the summary. True if every expectation passed.
     bool finish();
 
     std::string keys() const;
-    /// What matters most stands first: a narrow terminal shows the beginning only.
+    /// Most important items first: a narrow terminal shows the beginning only.
     std::string status_line() const;
-    /// What goes out before every line of the timeline, to wipe a status line away.
+    /// Output before every line of the timeline, to erase a status line.
     void clear_line_before_each(const std::string& code) { timeline_.begin_lines_with(code); }
     void heading() const;
-    /// Stored settings that the motor cannot work with, a line each.
+    /// Stored settings that do not fit the motor, one line each.
     std::string doubts() const;
 
   private:
-    /// A line, broken where the terminal is narrower.
+    /// Prints a line, wrapped to the terminal's width.
     void say(const std::string& text, std::size_t indent = 0) const;
     std::string motor_in_words() const;
     void lines_in_words();
@@ -88,7 +88,7 @@ class Session {
     std::optional<OutputFile> junit_;
     std::optional<Time> length_;
     Snapshot last_;
-    std::vector<std::string> remarks_;  ///< of the instant below
+    std::vector<std::string> remarks_;  ///< remarks of the time below
     Time remarked_{0};
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;

@@ -17,8 +17,8 @@
 
 namespace nplc::sim {
 
-/// What faces have of the simulated axis, whose name is "sim". Faces go by the wall clock, the gateway by
-/// virtual time, which follows it.
+/// The faces' view of the simulated axis, whose name is "sim". Faces use the wall clock, the gateway virtual
+/// time, which follows it.
 class SimFaces {
   public:
     SimFaces() { model_.wake_loop_with(bell_); }
@@ -33,7 +33,7 @@ class SimFaces {
             std::chrono::steady_clock::now().time_since_epoch()));
     }
 
-    /// Before the run. Empty, or why not.
+    /// To be called before the run. Empty, or an error.
     std::string open_modbus(const std::string& listen) {
         if (!listen.starts_with("pty:") && !listen.starts_with("rtu:")) {
             auto opened = modbus::TcpServer::open({.listen = listen}, {&model_});
@@ -54,7 +54,7 @@ class SimFaces {
         metrics_ = std::move(opened.server);
         return opened.error;
     }
-    /// With all commands: it moves nothing.
+    /// With all commands enabled, since it moves no real machine.
     std::string open_mqtt(const std::string& broker) {
         using registers::gateway::Command;
         mqtt::Options options;
@@ -78,7 +78,7 @@ class SimFaces {
         if (modbus_rtu_) fmt::print("modbus: {}\n", rtu_port_);
         if (metrics_) fmt::print("metrics: {}\n", metrics_->url());
     }
-    /// Rings when a face wants serve().
+    /// Readable when a face needs serve().
     int descriptor() const { return wakeup_.descriptor(); }
 
     /// After every step of the world: counts scans and events.

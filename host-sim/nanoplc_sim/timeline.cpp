@@ -11,7 +11,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr Time kWhileMoving = std::chrono::milliseconds{250};
-constexpr std::int64_t kMoved = 16;  // counts; below it is the regulator at work
+constexpr std::int64_t kMoved = 16;  // counts; below it the motion is the regulator's
 constexpr std::size_t kWidestSignals = 24;
 constexpr std::size_t kWidestStep = 12;  // on a narrow terminal
 constexpr std::size_t kLeastEvents = 20;
@@ -24,7 +24,7 @@ std::string active(std::uint8_t levels, unsigned count, const auto& name_of) {
     return text.empty() ? "-" : text;
 }
 
-/// Columns wide enough for all signals that the program names, within reason.
+/// Columns wide enough for all named signals, within a limit.
 template <std::size_t Count>
 std::size_t width_of(const std::array<std::string, Count>& names, std::string_view prefix,
                      std::size_t least) {
@@ -35,7 +35,7 @@ std::size_t width_of(const std::array<std::string, Count>& names, std::string_vi
     return std::clamp(width, least, kWidestSignals);
 }
 
-/// Bytes of the character or escape code that begins here, and the room that it takes.
+/// Bytes and display width of the character or escape code at the start of `text`.
 std::pair<std::size_t, std::size_t> next_of(std::string_view text) {
     if (text.front() == '\033') return {std::min(text.find('m'), text.size() - 1) + 1, 0};
     std::size_t bytes = 1;

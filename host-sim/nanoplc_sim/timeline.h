@@ -9,28 +9,28 @@
 
 namespace nplc::sim {
 
-/// Colours for a terminal, or nothing at all.
+/// Colours for a terminal; empty for none.
 struct Palette {
     explicit Palette(bool on);
     std::string_view dim, strong, good, bad, order, plain;
 };
 
-/// Text in lines of at most `width` characters, broken between words where that is possible; escape codes of
-/// colours take no room.
+/// Wraps text to lines of at most `width` characters, between words where possible; colour escape codes have
+/// no width.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// A run as the user reads it: one line for everything that happens, on standard output. On a terminal too
-/// narrow for all columns: time, step, position, speed, and what happens, outputs among it.
+/// Printed log of a run: one line per event, on standard output. On a terminal too narrow for all columns:
+/// time, step, position, speed, and the event, outputs included.
 class Timeline {
   public:
-    /// `columns` of the terminal; 0: as long as the lines are.
+    /// `columns` of the terminal; 0: no wrapping.
     Timeline(const Names& names, const Palette& palette, std::size_t columns = 0);
 
     void heading() const;
     /// Prints a line if something happened, if there is a remark, or if the motor has been moving for a
     /// while.
     void observe(const Snapshot& snapshot);
-    /// Something that no snapshot shows; printed with the next snapshot.
+    /// A remark that no snapshot shows; printed with the next snapshot.
     void remark(const std::string& text) { remarks_.push_back(text); }
     void alarm(const std::string& text);
     void begin_lines_with(const std::string& code) { line_start_ = code; }

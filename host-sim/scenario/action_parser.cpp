@@ -77,7 +77,7 @@ action::Cancel ActionParser::cancelled() {
     return {What::input, conditions_.input("an input, motor, line, gateway, log, end or all after cancel")};
 }
 
-/// A first word that is no signal most likely is a misspelt statement.
+/// A first word that is no signal is probably a misspelt statement.
 void ActionParser::check_known_word() {
     if (conditions_.knows(reader_.peek().text)) return;
     reader_.refuse_next(
@@ -92,7 +92,7 @@ void ActionParser::pulse(Actions& list, Time after) {
     if (length <= Time{0})
         reader_.refuse_time("a pulse must be longer than 0; write such as pulse IN0 50 ms");
     add(list, after, action::SetInput{index, true});
-    add(list, after + length, action::SetInput{index, false});
+    add(list, after + length, action::SetInput{index, false}, true);
 }
 
 void ActionParser::line(Actions& list, Time after) {
@@ -191,7 +191,7 @@ void ActionParser::motor(Actions& list, Time after) {
     reader_.fail(kMotor);
 }
 
-/// What only some drives have.
+/// Actions on parts that only some drives have.
 bool ActionParser::motor_surroundings(Actions& list, Time after) {
     const auto take = [this](std::string_view word, DrivePart part) {
         if (!reader_.take(word)) return false;

@@ -28,7 +28,7 @@ bool compare(const Condition& condition, double seen) {
     return false;
 }
 
-/// A copy of a step is that step, unless the condition names the copy.
+/// A copy of a step counts as that step, unless the condition names the copy.
 double seen_value(const Condition& condition, const Snapshot& snapshot, const Names& names) {
     const double seen = condition.value.of(snapshot);
     if (condition.value.kind != Value::Kind::step || seen == condition.operand) return seen;
@@ -218,6 +218,10 @@ bool EventWatch::sets_in(const Snapshot& snapshot, const Names& names) {
             return holds;
     }
     return false;
+}
+
+std::string Condition::in_its_unit(double number) const {
+    return in_unit(number, unit);
 }
 
 std::string normal_order(const std::string& words) {

@@ -13,7 +13,7 @@ namespace {
 
 using Relation = Condition::Relation;
 
-/// Conditions are read, judged and destroyed by recursion.
+/// Conditions are parsed, evaluated and destroyed recursively.
 constexpr int kDeepest = 100;
 
 constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=", Relation::equal},
@@ -112,10 +112,10 @@ Condition ConditionParser::order() {
     if (reader_.peek().kind != Token::Kind::text) {
         reader_.fail("the order in quotes, such as ordered \"POSITION(P2)\" or ordered \"V1 := 3146\"");
     }
-    return {.kind = Condition::Kind::ordered,
-            .value = {},
-            .order = normal_order(std::string(reader_.next().text)),
-            .parts = {}};
+    const std::size_t mark = reader_.mark();
+    OrderReading read = read_order(reader_.next().text, names_);
+    if (!read.mistake.empty()) reader_.refuse_at(mark, read.mistake);
+    return {.kind = Condition::Kind::ordered, .value = {}, .order = std::move(read.order), .parts = {}};
 }
 
 Condition ConditionParser::comparison() {
@@ -257,6 +257,7 @@ double ConditionParser::step_number() {
         const double number = reader_.next().number;
         if (number != static_cast<int>(number) || number > 62)
             reader_.refuse("a step is a whole number 0 to 62");
+        check_step(static_cast<unsigned>(number));
         return number;
     }
     std::string known;
@@ -273,6 +274,19 @@ double ConditionParser::step_number() {
             fmt::format("\"{}\": this program has no step names; write the step's number", token.text));
     }
     reader_.refuse_next(fmt::format("the program has no step \"{}\"; write one of {}", token.text, known));
+}
+
+void ConditionParser::check_step(unsigned number) const {
+    if (names_.numbers == 0 || (names_.numbers >> number & 1U) != 0) return;
+    std::string known;
+    for (unsigned step = 0; step < 64; ++step) {
+        if ((names_.numbers >> step & 1U) == 0) continue;
+        const unsigned first = step;
+        while (step < 63 && (names_.numbers >> (step + 1) & 1U) != 0) ++step;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", first);
+        if (step != first) known += fmt::format("..{}", step);
+    }
+    reader_.refuse(fmt::format("the table has no step {}; it has {}", number, known));
 }
 
 bool ConditionParser::level() {

@@ -7,7 +7,7 @@
 
 namespace nplc::sim {
 
-/// What a drive may have, or have around it, that a scenario can act upon.
+/// Parts of a drive or its environment that a scenario can act on.
 enum class DrivePart : std::uint8_t {
     brake,
     spring,  ///< at a mechanical stop
@@ -15,12 +15,12 @@ enum class DrivePart : std::uint8_t {
     pulse_input,
     logic_supply,
     temperature,
-    encoder,  ///< one that is noticed when it breaks
+    encoder,  ///< one whose failure is detected
     inputs,   ///< of a MIDI module
     plant,    ///< a file of one
 };
 
-/// Why the drive has none and what to write instead, without a full stop; empty if it has.
+/// Why the drive has no such part and what to write instead, without a full stop; empty if it has.
 std::string why_without(DrivePart part, const Names& names);
 
 }  // namespace nplc::sim

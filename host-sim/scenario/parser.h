@@ -13,7 +13,7 @@
 
 namespace nplc::sim {
 
-/// What is wrong with the line at hand, and where in it.
+/// An error in the present line, and its position.
 struct LineMistake {
     std::string message;
     std::size_t at = 0;
@@ -21,7 +21,7 @@ struct LineMistake {
 
 struct Token {
     enum class Kind : std::uint8_t { word, number, text, symbol, end } kind = Kind::end;
-    std::string_view text;  ///< of a quoted text: what stands between the quotes
+    std::string_view text;  ///< for a quoted text: the text between the quotes
     double number = 0;
     std::size_t begin = 0;  ///< in the line
     std::size_t end = 0;
@@ -47,19 +47,19 @@ class Reader {
     bool at_end() const { return peek().kind == Token::Kind::end; }
     bool is(std::string_view word_or_symbol, std::size_t ahead = 0) const;
     bool take(std::string_view word_or_symbol);
-    /// Throws with `what_to_write` unless it is there.
+    /// Throws with `what_to_write` if it does not follow.
     void want(std::string_view word_or_symbol, std::string_view what_to_write);
-    /// What was found, and what to write instead.
+    /// Throws with the token found, and what to write instead.
     [[noreturn]] void fail(std::string_view what_to_write) const;
-    /// Throws with the place of the token read last, or of the next one.
+    /// Throws with the position of the token read last, or of the next one.
     [[noreturn]] void refuse(const std::string& message) const;
     [[noreturn]] void refuse_next(const std::string& message) const { refuse_at(position_, message); }
     [[noreturn]] void refuse_at(std::size_t mark, const std::string& message) const;
-    /// With the place of the time read last.
+    /// Throws with the position of the time read last.
     [[noreturn]] void refuse_time(const std::string& message) const;
 
     std::size_t mark() const { return position_; }
-    /// What is left of the line, which is read with it.
+    /// Reads the rest of the line.
     std::string_view rest();
     /// The source from the token at `mark` to the one read last.
     std::string source_since(std::size_t mark) const;
@@ -73,7 +73,7 @@ class Reader {
     std::uint64_t times();
     /// `for 200 ms`; 0 without it.
     Time lasting();
-    /// Begins at `from` where nothing else is written.
+    /// Begins at `from` if nothing else is written.
     Window window(Time from = Time{0});
 
   private:
@@ -83,8 +83,16 @@ class Reader {
     std::vector<Token> tokens_;
     const Names& names_;
     std::size_t position_ = 0;
-    std::size_t time_at_ = 0;  ///< the token with which the time read last began
+    std::size_t time_at_ = 0;  ///< first token of the time read last
 };
+
+/// An order as conditions compare it, from the words of the timeline or with the program's names of
+/// registers.
+struct OrderReading {
+    std::string order{};
+    std::string mistake{};  ///< empty: there is none
+};
+OrderReading read_order(std::string_view text, const Names& names);
 
 /// Conditions and events of the language. All functions throw LineMistake.
 class ConditionParser {
@@ -95,11 +103,11 @@ class ConditionParser {
     Event event();
     /// 0, 1, FALSE, TRUE, OFF, ON
     bool level();
-    /// An input by its own or the program's name; `use` says what it is wanted for.
+    /// An input by its own or the program's name; `use` names its purpose for messages.
     unsigned input(std::string_view use);
-    /// Where the shaft is, in counts.
+    /// A shaft position, in counts.
     std::int64_t place();
-    /// What `per` is followed by, in counts: a revolution, or the machine's unit.
+    /// The unit after `per`, in counts: a revolution, or the machine's unit.
     double length();
     bool knows(std::string_view word) const { return lookup(word).has_value(); }
     const Names& names() const { return names_; }
@@ -115,9 +123,10 @@ class ConditionParser {
     void operand(Condition& condition);
     void quantity(Condition& condition);
     double step_number();
+    void check_step(unsigned number) const;
     Condition group();
     struct Measure {
-        double value;  ///< in the value's own steps
+        double value;  ///< in the value's own unit
         Unit unit;
     };
     Measure measure(std::string_view what, Value::Kind kind);
@@ -129,16 +138,16 @@ class ConditionParser {
 
     Reader& reader_;
     const Names& names_;
-    int depth_ = 0;  ///< of parentheses and NOTs
+    int depth_ = 0;  ///< nesting of parentheses and NOTs
 };
 
-/// What a scenario expects. All functions throw LineMistake.
+/// The expectations of a scenario. All functions throw LineMistake.
 class ExpectationParser {
   public:
     ExpectationParser(Reader& reader, ConditionParser& conditions)
         : reader_(reader), conditions_(conditions) {}
 
-    /// `at`: the time that stands before the word.
+    /// `at`: the time before the word.
     Expectation expectation(std::optional<Time> at);
 
   private:
@@ -157,10 +166,10 @@ class ExpectationParser {
     ConditionParser& conditions_;
 };
 
-/// What a scenario can do. All functions throw LineMistake.
+/// The actions of a scenario. All functions throw LineMistake.
 class ActionParser {
   public:
-    /// `recipes`: names of those that the scenario has saved so far.
+    /// `recipes`: names of the recipes that the scenario has saved so far.
     ActionParser(Reader& reader, ConditionParser& conditions, std::vector<std::string>& recipes)
         : reader_(reader), conditions_(conditions), recipes_(recipes) {}
 
@@ -171,15 +180,16 @@ class ActionParser {
 
   private:
     template <class What>
-    static void add(Actions& list, Time after, What what) {
-        list.push_back({after, std::move(what)});
+    static void add(Actions& list, Time after, What what, bool takes_back = false) {
+        list.push_back({after, std::move(what), takes_back});
     }
 
-    /// And what takes it back, where `for TIME` follows.
+    /// Also adds the reverse action where `for TIME` follows.
     template <class What>
     void add_for(Actions& list, Time after, What what, What back) {
         add(list, after, std::move(what));
-        if (const Time span = reader_.lasting(); span != Time{0}) add(list, after + span, std::move(back));
+        if (const Time span = reader_.lasting(); span != Time{0})
+            add(list, after + span, std::move(back), true);
     }
 
     void action(Actions& list, Time after);
@@ -213,6 +223,7 @@ class ActionParser {
     void gateway(Actions& list, Time after);
     // set_point_parser.cpp
     void needs_set_points() const;
+    std::string no_such_point(std::string_view name) const;
     void set_points(Actions& list, Time after);
     void recipe(Actions& list, Time after);
     void seed(Actions& list, Time after);

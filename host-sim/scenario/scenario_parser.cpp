@@ -11,7 +11,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::size_t kLongestLine = 1'000'000;
-constexpr std::size_t kMostMistakes = 1000;  // a file with more is something else
+constexpr std::size_t kMostMistakes = 1000;  // a file with more is probably not a scenario
 
 /// Statements of one line. Throws LineMistake.
 class LineParser {
@@ -46,7 +46,7 @@ class LineParser {
         if (reader_.is("follows", 1)) return follows();
         if (reader_.is("appears", 1)) return comes(true);
         if (reader_.is("disappears", 1)) return comes(false);
-        scenario_.at.push_back({Time{0}, actions_.actions()});
+        scenario_.at.push_back({Time{0}, actions_.actions(), line_});
     }
 
     /// motor plant "axis.toml"
@@ -64,7 +64,7 @@ class LineParser {
     void at() {
         const Time time = reader_.duration("a time, such as at 100 ms IN0 := 1");
         if (!reader_.is("expect")) {
-            scenario_.at.push_back({time, actions_.actions()});
+            scenario_.at.push_back({time, actions_.actions(), line_});
             return;
         }
         expect(time);
@@ -73,11 +73,24 @@ class LineParser {
     void every() {
         EveryRule rule = period("every 500 ms pulse IN0 50 ms");
         rule.actions = actions_.actions();
+        check_spans(rule);
         scenario_.every.push_back(std::move(rule));
+    }
+
+    /// What lasts as long as the period is never taken back.
+    void check_spans(const EveryRule& rule) const {
+        for (std::size_t i = 1; i < rule.actions.size(); ++i) {
+            const Time span = rule.actions[i].after - rule.actions[i - 1].after;
+            if (!rule.actions[i].takes_back || span < rule.period) continue;
+            reader_.refuse_at(0,
+                              fmt::format("it lasts {} and comes again every {}; make it shorter than that",
+                                          in_words(span), in_words(rule.period)));
+        }
     }
 
     EveryRule period(std::string_view example) {
         EveryRule rule;
+        rule.line = line_;
         rule.period = reader_.duration(fmt::format("a time, such as {}", example));
         if (rule.period <= Time{0})
             reader_.refuse_time(fmt::format("a period must be longer than 0; write such as {}", example));
@@ -151,6 +164,9 @@ class LineParser {
         rule.line = line_;
         reader_.next();
         rule.condition = conditions_.condition();
+        if (rule.condition.kind == Condition::Kind::compare &&
+            rule.condition.value.kind == Value::Kind::input && rule.condition.value.index == rule.input)
+            reader_.refuse("an input that follows itself never changes; name what it follows, such as OUT0");
         if (reader_.take("after")) rule.after = reader_.duration("a time, such as after 300 ms");
         rule.back = rule.after;
         if (reader_.take("back")) {
@@ -172,24 +188,27 @@ class LineParser {
         if (reader_.take("every")) {
             EveryRule rule = period("IN2 appears every 2 s");
             rule.actions = actions;
+            check_spans(rule);
             scenario_.every.push_back(std::move(rule));
             return;
         }
         if (reader_.take("at")) {
-            scenario_.at.push_back({reader_.duration("a time, such as IN2 appears at 2 s"), actions});
+            const Time time = reader_.duration("a time, such as IN2 appears at 2 s");
+            scenario_.at.push_back({time, actions, line_});
             return;
         }
         Time delay{0};
         if (reader_.starts_duration()) delay = reader_.duration("a time");
         reader_.want("after", "every 2 s, at 2 s, or 300 ms after and what happens");
         WhenRule rule = begin_when(false);
-        for (const Action& action : actions) rule.actions.push_back({delay + action.after, action.what});
+        for (const Action& action : actions)
+            rule.actions.push_back({delay + action.after, action.what, action.takes_back});
         scenario_.when.push_back(std::move(rule));
     }
 
     static Actions levels(unsigned input, bool level, Time span) {
         Actions actions{{Time{0}, action::SetInput{input, level}}};
-        if (span != Time{0}) actions.push_back({span, action::SetInput{input, !level}});
+        if (span != Time{0}) actions.push_back({span, action::SetInput{input, !level}, true});
         return actions;
     }
 
@@ -213,6 +232,28 @@ void check_expectation_times(ParsedScenario& parsed) {
     }
 }
 
+/// What would never happen. That something is not taken back before the end is no mistake.
+void check_action_times(ParsedScenario& parsed) {
+    const Scenario& scenario = parsed.scenario;
+    if (!scenario.end) return;
+    const auto check = [&](Time time, int line) {
+        if (time <= *scenario.end) return;
+        parsed.mistakes.push_back(
+            {.line = line,
+             .column = 1,
+             .message = fmt::format("this happens at {}, but the scenario ends at {}; move one of the two",
+                                    in_words(time), in_words(*scenario.end))});
+    };
+    for (const AtRule& rule : scenario.at) {
+        const auto beyond = std::find_if(rule.actions.begin(), rule.actions.end(), [&](const Action& action) {
+            return !action.takes_back && rule.time + action.after > *scenario.end;
+        });
+        if (beyond != rule.actions.end()) check(rule.time + beyond->after, rule.line);
+    }
+    for (const EveryRule& rule : scenario.every) check(rule.from, rule.line);
+    for (const WhenRule& rule : scenario.when) check(rule.from, rule.line);
+}
+
 /// From 1, in characters.
 int column_of(std::string_view line, std::size_t byte) {
     const std::string_view before = line.substr(0, std::min(byte, line.size()));
@@ -230,7 +271,7 @@ std::string_view letters_at(std::string_view text, std::size_t at) {
         0, static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), is_of_word) - rest.begin()));
 }
 
-/// Of the words that a message offers, the one that was meant takes the place of the list.
+/// Replaces the list of words in a message by the most similar one.
 std::string with_guess(std::string_view line, const LineMistake& mistake) {
     constexpr std::string_view kOffer = "; write ";
     constexpr std::size_t kShortest = 3;
@@ -301,6 +342,9 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
         text.remove_prefix(std::min(length + 1, text.size()));
     }
     check_expectation_times(parsed);
+    check_action_times(parsed);
+    std::stable_sort(parsed.mistakes.begin(), parsed.mistakes.end(),
+                     [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
     return parsed;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nplc::sim {
 namespace {
@@ -13,7 +14,7 @@ void earliest(std::optional<Time>& best, std::optional<Time> candidate, Time aft
     if (candidate && *candidate > after && (!best || *candidate < *best)) best = candidate;
 }
 
-/// What `cancel` names an action by.
+/// The actions that `cancel` can name.
 struct KindOfAction {
     using What = action::Cancel::What;
     What operator()(const action::SetInput&) const { return What::input; }
@@ -40,6 +41,14 @@ bool is_dropped(const Action& action, const action::Cancel& by) {
     if (const auto* set = std::get_if<action::SetInput>(&action.what)) return set->index == by.index;
     if (const auto* toggle = std::get_if<action::ToggleInput>(&action.what)) return toggle->index == by.index;
     return true;
+}
+
+/// Awaited as P_IST = 80 mm.
+bool is_quantity(const Condition& condition) {
+    const Value::Kind kind = condition.value.kind;
+    return condition.kind == Condition::Kind::compare && condition.relation == Condition::Relation::equal &&
+           (kind == Value::Kind::p_ist || kind == Value::Kind::v_ist || kind == Value::Kind::shaft ||
+            kind == Value::Kind::torque);
 }
 
 }  // namespace
@@ -108,7 +117,7 @@ bool ScenarioRunner::observe(const Snapshot& snapshot) {
     return followed || acted;
 }
 
-/// At the beginning an input is where its condition has it.
+/// At the start an input has the value of its condition.
 bool ScenarioRunner::follow(const Snapshot& snapshot) {
     bool any = false;
     for (std::size_t i = 0; i < followed_.size(); ++i) {
@@ -168,7 +177,7 @@ void ScenarioRunner::perform(const Planned& planned) {
         bool by_rule;
         void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
         void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
-        /// What has a time of its own was planned first and drops what rules have planned until then.
+        /// An action with a time of its own was planned first and drops what rules have planned until then.
         void operator()(const action::Cancel& a) const { self.cancel(a, by_rule ? batch : UINT64_MAX); }
         void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
         void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }
@@ -237,7 +246,7 @@ bool ScenarioRunner::holds(Judgement& judgement, const Snapshot& snapshot) const
     return snapshot.time - *judgement.since >= wanted.hold;
 }
 
-/// In its window.
+/// Whether the event happens within its window.
 bool ScenarioRunner::event_happens(Judgement& judgement, const Snapshot& snapshot) const {
     const Expectation& wanted = *judgement.expectation;
     return judgement.watch.happens(snapshot, names_) && snapshot.time >= wanted.from &&
@@ -254,8 +263,21 @@ void ScenarioRunner::judge_at(Judgement& judgement, const Snapshot& snapshot) {
 void ScenarioRunner::judge_by(Judgement& judgement, const Snapshot& snapshot) {
     const Expectation& wanted = *judgement.expectation;
     if (holds(judgement, snapshot)) return decide(judgement, true, snapshot.time);
+    if (is_quantity(wanted.condition)) {
+        const double seen = wanted.condition.value.of(snapshot);
+        const auto distance = [&](double value) { return std::abs(value - wanted.condition.operand); };
+        if (!judgement.nearest || distance(seen) < distance(*judgement.nearest)) judgement.nearest = seen;
+    }
     if (!wanted.time || snapshot.time < *wanted.time) return;
-    decide(judgement, false, snapshot.time, "never until then; " + seen_at(wanted.condition, snapshot));
+    decide(judgement, false, snapshot.time,
+           "never until then; " + seen_at(wanted.condition, snapshot) + nearest_text(judgement));
+}
+
+std::string ScenarioRunner::nearest_text(const Judgement& judgement) const {
+    const Condition& wanted = judgement.expectation->condition;
+    if (!judgement.nearest) return {};
+    return fmt::format("; the nearest was {}{}", wanted.in_its_unit(*judgement.nearest),
+                       wanted.tolerance > 0 ? "" : ": give it a tolerance (+-)");
 }
 
 void ScenarioRunner::judge_always(Judgement& judgement, const Snapshot& snapshot) {
@@ -331,7 +353,8 @@ void ScenarioRunner::judge_at_end(Judgement& judgement, const Snapshot& snapshot
             return decide(judgement, holds(judgement, snapshot), snapshot.time,
                           seen_at(wanted.condition, snapshot));
         case Expectation::Kind::by:
-            return decide(judgement, false, snapshot.time, "never; " + seen_at(wanted.condition, snapshot));
+            return decide(judgement, false, snapshot.time,
+                          "never; " + seen_at(wanted.condition, snapshot) + nearest_text(judgement));
         case Expectation::Kind::always:
             if (snapshot.time < wanted.from) {
                 return decide(judgement, false, snapshot.time, end + ", before the time to look at");

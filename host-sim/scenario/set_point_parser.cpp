@@ -18,6 +18,16 @@ void ActionParser::needs_set_points() const {
         reader_.refuse_next("the program has no set-points; declare one with SET_POINT");
 }
 
+/// The compiler leaves out what nothing uses.
+std::string ActionParser::no_such_point(std::string_view name) const {
+    std::string known;
+    for (const set_points::SetPoint& point : conditions_.names().set_points.values)
+        known += (known.empty() ? "" : ", ") + point.name;
+    return fmt::format(
+        "the table has no set-point \"{}\": the program declares none, or uses it nowhere (W025); write {}{}",
+        name, conditions_.names().set_points.values.size() == 1 ? "" : "one of ", known);
+}
+
 void ActionParser::set_points(Actions& list, Time after) {
     needs_set_points();
     const std::size_t begin = reader_.mark();
@@ -26,8 +36,9 @@ void ActionParser::set_points(Actions& list, Time after) {
     std::vector<NewValue> values;
     do {
         const set_points::SetPoint* point = set_points::find(record, reader_.peek().text);
-        if (reader_.peek().kind != Token::Kind::word || point == nullptr)
+        if (reader_.peek().kind != Token::Kind::word)
             reader_.fail("a set-point of the program, such as set Length := 60 mm");
+        if (point == nullptr) reader_.refuse_next(no_such_point(reader_.peek().text));
         reader_.next();
         reader_.want(":=", ":= and the value, such as set Length := 60 mm");
         const std::size_t mark = reader_.mark();
@@ -45,7 +56,7 @@ void ActionParser::set_points(Actions& list, Time after) {
                           reader_.source_since(begin)});
 }
 
-/// By their names. A scenario begins without any, so it loads what it has saved.
+/// By name. A scenario begins without recipes, so it can only load those it has saved.
 void ActionParser::recipe(Actions& list, Time after) {
     needs_set_points();
     const std::size_t begin = reader_.mark();

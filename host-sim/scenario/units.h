@@ -6,11 +6,11 @@
 
 namespace nplc::sim {
 
-/// What a value can be written in: its own steps first, then those of the motor and of the program's SCALE.
+/// The units of a value: its own first, then those of the motor and of the program's SCALE.
 std::vector<Unit> units_of(Value::Kind kind, const Names& names);
 /// `counts, rev or mm`
 std::string units_in_words(Value::Kind kind, const Names& names);
-/// A word that people write behind a number, whether or not it fits.
+/// A word that is usually a unit, whether or not it fits.
 bool looks_like_unit(std::string_view word, const Names& names);
 
 }  // namespace nplc::sim

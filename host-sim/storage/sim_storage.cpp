@@ -78,7 +78,7 @@ void SimStorage::carry_out(const StorageOperation& operation) {
     }
 }
 
-/// Bits of `mask` that are 0 in `value` become 0, unless worn out.
+/// Clears the bits of `mask` that are 0 in `value`, except worn-out ones.
 void SimStorage::change(std::uint32_t address, std::uint8_t value, std::uint8_t mask) {
     auto kept = static_cast<std::uint8_t>(value | ~mask);
     if (worn_ && worn_->address == address) kept = static_cast<std::uint8_t>(kept | (1U << worn_->bit));

@@ -27,7 +27,7 @@ char lower_char(char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Bytes of the character that begins here; 0: it is none.
+/// Bytes of the character at the start of `text`; 0: invalid.
 std::size_t length_of_character(std::string_view text) {
     const auto first = static_cast<unsigned char>(text.front());
     if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
         fmt::format("{}: cannot be written: {}; name a file in a folder where you may write", path, why));
 }
 
-/// Where a chain of symbolic links ends, also if nothing is there yet, so that a link stays a link.
+/// The end of a chain of symbolic links, also if it does not exist yet, so that a link is kept.
 fs::path follow(const fs::path& path) {
     constexpr int kMostLinks = 40;
     std::error_code error;

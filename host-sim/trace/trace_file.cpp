@@ -41,7 +41,7 @@ std::string scalar(bool value, const std::string& name) {
     return (value ? "1" : "0") + name;
 }
 
-/// Strings of a dump hold no blanks.
+/// Strings of a dump must not contain blanks.
 std::string string_value(std::string text, char name) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c <= ' ' || c > '~'; }, '_');
@@ -64,7 +64,7 @@ double rpm_of(std::int32_t v_ist, registers::Model motor) {
     return v_ist * scale.samples_per_second * 60 / scale.counts_per_rev;
 }
 
-/// A signal may be called as what stands beside it in the dump.
+/// A signal may have the same name as another item of the dump.
 std::string signal_name(const std::string& name, const std::string& number) {
     return name == "step" || name == "step_name" || name == "timer" || name == "counter" || name == "command"
                ? name + "_" + number

@@ -41,8 +41,13 @@ class AxisStoreTest : public testing::Test {
             error = store.mark_running();
             said = testing::internal::GetCapturedStderr();
         }
-        /// On the disk when this Run ends.
-        void command_run() { store.note_run(); }
+        /// What is said of it, in the end.
+        std::string command_run() {
+            const base::Instant now{};
+            auto outcome = store.give_permission(now);
+            while (!outcome) outcome = store.give_permission(now);
+            return *outcome;
+        }
         void end() { EXPECT_EQ(store.mark_ended(), ""); }
 
         std::string axis;
@@ -70,7 +75,7 @@ class AxisStoreTest : public testing::Test {
     }
     void command_run_once(const std::string& axis = "a") const {
         Run run = start({}, axis);
-        run.command_run();
+        EXPECT_EQ(run.command_run(), "");
         EXPECT_EQ(run.error, "");
         run.end();
     }
@@ -202,6 +207,17 @@ TEST_F(AxisStoreTest, AStoreOfTheVersionBeforeCountsAsRunOnce) {
     fs::create_directories(folder());
     write_old_mark("ended");
     EXPECT_EQ(start_and_end(), lost);
+}
+
+TEST_F(AxisStoreTest, WhatCannotBeWrittenIsNotGiven) {
+    Run run = start();
+    fs::rename(store(), store() + ".away");
+    EXPECT_NE(run.command_run().find("cannot be written"), std::string::npos);
+    EXPECT_EQ(run.store.permission(), first_run);
+    fs::rename(store() + ".away", store());
+    EXPECT_EQ(run.command_run(), "");
+    EXPECT_EQ(run.store.permission(), given);
+    run.end();
 }
 
 TEST_F(AxisStoreTest, EachFlippedBitOfTheRecordWaits) {

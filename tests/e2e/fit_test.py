@@ -42,9 +42,7 @@ class Fit(ProgramCase):
                               check=False)
 
     def reg(self, *arguments):
-        result = self.call("--port", self.endpoint, "--patience", "500", "--model", "MAC140", "--json", *arguments)
-        self.assertEqual(result.returncode, 0, f"{arguments}: {result.stdout} {result.stderr}")
-        return json.loads(result.stdout.splitlines()[-1])
+        return self.document_of(self.call("--port", self.endpoint, "--patience", "500", "--model", "MAC140", "--json", *arguments))
 
     def record(self, speed, way):
         """A move by so many counts."""

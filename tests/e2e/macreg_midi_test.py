@@ -4,7 +4,6 @@
 usage: macreg_midi_test.py MACREG MIDISIM
 """
 
-import json
 import os
 import pty
 import signal
@@ -50,11 +49,7 @@ class Case(device_case.Case):
                               timeout=4 * LONG, check=False)
 
     def reg(self, *arguments, exit_code=0):
-        result = self.call("--json", *arguments)
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        answer = json.loads(result.stdout.splitlines()[-1])
-        self.assertEqual(answer["ok"], exit_code == 0)
-        return answer
+        return self.document_of(self.call("--json", *arguments), exit_code)
 
     def told(self, exit_code, part, *arguments):
         """One line on standard error, and nothing else but what --json prints."""

@@ -11,10 +11,10 @@ import signal
 import subprocess
 import sys
 import termios
-import time
 import unittest
 
 from noisy_proxy import NoisyProxy
+from patience import until
 from program_case import ProgramCase
 
 MACREG = MACSIM = SIM = SEQC = SHUTTLE = ""
@@ -45,40 +45,20 @@ class Case(ProgramCase):
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=4 * LONG, check=False)
 
     def reg(self, *arguments, exit_code=0, **options):
-        """The document of --json."""
-        result = self.call("--json", *arguments, **options)
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        answer = json.loads(result.stdout.splitlines()[-1])
-        self.assertEqual(answer["ok"], exit_code == 0)
-        return answer
+        return self.document_of(self.call("--json", *arguments, **options), exit_code)
 
     def value(self, name, **options):
         return self.reg("get", name, **options)["registers"][0]["raw"]
 
     def refused(self, exit_code, part, *arguments, **options):
-        """One line on standard error, and nothing else."""
         result = self.call(*arguments, **options)
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (exit_code, 1), f"{arguments}: {result.stdout} {result.stderr}")
         self.assertIn(part, result.stderr, arguments)
         return result
 
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
-    def until(self, condition):
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            if condition():
-                return
-            time.sleep(0.02)
-        self.fail("it never came")
 
 
 class Registers(Case):
@@ -182,7 +162,7 @@ class Registers(Case):
         self.assertEqual(self.reg("why")["findings"][0]["code"], "torque_zero")
         self.assertIn("T_SOLL", self.call("why").stdout)
         self.reg("set", "T_SOLL", "100%")
-        self.until(lambda: self.reg("why")["findings"][0]["code"] == "moves")
+        until(lambda: self.reg("why")["findings"][0]["code"] == "moves")
 
 
 class Files(Case):
@@ -220,17 +200,17 @@ class Files(Case):
                            ("type 99", head + "motor_type = 99\n")):
             registers = sum(line[0].isupper() for line in text.splitlines())
             with self.subTest(part):
-                self.refused(2, part, "load", self.write("bad.txt", text + ("" if "incomplete" in text else f"end = {registers}\n")))
-        three = self.write("bad.txt", head + "A_SOL = 5\nT_SOLL = x\nT_SOLL = 7\nP_IST = 1\nend = 5\n")
+                self.refused(2, part, "load", self.put("bad.txt", text + ("" if "incomplete" in text else f"end = {registers}\n")))
+        three = self.put("bad.txt", head + "A_SOL = 5\nT_SOLL = x\nT_SOLL = 7\nP_IST = 1\nend = 5\n")
         result = self.call("load", three)
         self.assertEqual(result.returncode, 2)
         self.assertEqual([line.split("bad.txt:")[1].split(":")[0] for line in result.stderr.splitlines()[1:]],
                          ["3", "4", "6"])
         self.assertIn("3 problems, nothing was written", result.stderr)
         self.assertEqual([one["line"] for one in self.reg("load", three, exit_code=2)["problems"]], [3, 4, 6])
-        self.refused(2, "bad.txt: no line says 'model", "load", self.write("bad.txt", ""))
+        self.refused(2, "bad.txt: no line says 'model", "load", self.put("bad.txt", ""))
         self.refused(2, "write a file's name", "dump", "-o", "")
-        self.refused(2, "may be cut short", "load", self.write("bad.txt", head + "A_SOLL = 397"))
+        self.refused(2, "may be cut short", "load", self.put("bad.txt", head + "A_SOLL = 397"))
         self.refused(2, "cannot be read", "load", self.path("none.txt"))
         self.refused(2, "folder", "load", self.folder.name)
         self.assertEqual(self.value("V_SOLL"), 1600)
@@ -247,7 +227,7 @@ class Files(Case):
 
     def test_a_file_that_broke_off_is_compared_as_far_as_it_goes(self):
         self.motor()
-        part = self.write("f.part", "model = MAC140\nV_SOLL = raw:1600\nincomplete = lost\n")
+        part = self.put("f.part", "model = MAC140\nV_SOLL = raw:1600\nincomplete = lost\n")
         same = self.call("--json", "diff", "--partial", part)
         self.assertEqual(same.returncode, 0, same.stdout)
         self.assertIn("A_SOLL", json.loads(same.stdout)["not_compared"])
@@ -259,7 +239,7 @@ class Files(Case):
     def test_a_motor_that_runs_is_not_changed_under_way(self):
         self.motor()
         self.reg("set", "V_SOLL", "100rpm", "MODE_REG", "V_MODE")
-        file = self.write("file.txt", "model = MAC140\nV_SOLL = 7\nend = 1\n")
+        file = self.put("file.txt", "model = MAC140\nV_SOLL = 7\nend = 1\n")
         self.refused(1, "V_MODE", "load", file)
         self.reg("load", "--stop", file)
         self.assertEqual((self.value("V_SOLL"), self.value("MODE_REG")), (7, 0))
@@ -268,7 +248,7 @@ class Files(Case):
         motor = self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))
         process = self.start("--baud", "2400", "dump", "-o", self.path("file.txt"))
         part = self.path("file.txt.part")
-        self.until(lambda: os.path.exists(part) and "V_SOLL" in self.read("file.txt.part"))
+        until(lambda: os.path.exists(part) and "V_SOLL" in self.read("file.txt.part"))
         motor.kill()
         _, error = process.communicate(timeout=LONG)
         self.assertEqual(process.returncode, 3, error)
@@ -282,7 +262,7 @@ class Files(Case):
         self.motor("--speed", "10")
         self.reg("set", "V_SOLL", "10rpm", "MODE_REG", "V_MODE")
         names = [f"{letter}{number}" for letter, most in (("P", 8), ("V", 8), ("A", 4)) for number in range(1, most + 1)]
-        file = self.write("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names) + "end = 20\n")
+        file = self.put("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names) + "end = 20\n")
         # Of 9 + 19 bytes a read, some 140 a block: far behind the first write, before the last.
         proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=2200)
         self.addCleanup(proxy.close)
@@ -317,7 +297,7 @@ class Files(Case):
     def test_ctrl_c_in_a_dump(self):
         self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))
         process = self.start("--baud", "2400", "dump", "-o", self.path("file.txt"))
-        self.until(lambda: os.path.exists(self.path("file.txt.part")) and "V_SOLL" in self.read("file.txt.part"))
+        until(lambda: os.path.exists(self.path("file.txt.part")) and "V_SOLL" in self.read("file.txt.part"))
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=LONG)
         self.assertEqual(process.returncode, 130)
@@ -471,7 +451,7 @@ class Line(Case):
             result = subprocess.run([MACREG, *arguments], capture_output=True, text=True, check=False)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn(part, result.stdout)
-        script = self.write("completion", subprocess.run([MACREG, "completion", "bash"], capture_output=True, text=True,
+        script = self.put("completion", subprocess.run([MACREG, "completion", "bash"], capture_output=True, text=True,
                                                          check=False).stdout)
         self.assertEqual(subprocess.run(["bash", "-n", script], check=False).returncode, 0)
 

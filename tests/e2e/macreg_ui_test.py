@@ -9,40 +9,32 @@ import shlex
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-import simulator
+from program_case import ProgramCase
 
 MACREG = MACSIM = ""
 LONG = 240  # timeout in seconds of what must come
 RECORDING = 2_000  # milliseconds of patience where a gateway is asked for
 
 
-class Case(unittest.TestCase):
+class Case(ProgramCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.motors = []
+        super().setUp()
         self.servers = 0
         self.start_motor()
 
     def tearDown(self):
         self.tmux("kill-server", check=False)
-        for motor in self.motors:
-            motor.kill()
-            motor.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
+        super().tearDown()
 
     def start_motor(self, speed=10):
-        self.motors.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", str(speed), "--fastmac",
-                                           "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m"))[0])
+        self.launch(MACSIM, "--model", "MAC140", "--address", "8", "--speed", str(speed), "--fastmac", "pty:" + self.path("f"),
+                    "--mactalk", "pty:" + self.path("m"))
 
     def stop_motor(self):
-        motor = self.motors[-1]
+        motor = self.running[-1]
         motor.send_signal(signal.SIGTERM)
         motor.wait(LONG)
 

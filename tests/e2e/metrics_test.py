@@ -9,13 +9,13 @@ import re
 import socket
 import subprocess
 import sys
-import time
 import unittest
 import urllib.error
 import urllib.request
 
 import program_case
 import service_case
+from patience import until
 
 SIM = SHUTTLE = EXAMPLES = ""
 LONG = 60
@@ -49,12 +49,9 @@ class Simulated(program_case.ProgramCase):
         process, lines = self.launch(SIM, "run", program or SHUTTLE, "--realtime", "--quiet", "--metrics", "127.0.0.1:0")
         return process, re.search(r"metrics: (\S+)", "".join(lines)).group(1)
 
-    def until(self, url, come):
-        end = time.monotonic() + LONG
-        while not come(values := read(fetch(url))):
-            self.assertLess(time.monotonic(), end, "never came")
-            time.sleep(0.05)
-        return values
+    @staticmethod
+    def until(url, come):
+        return until(lambda: (values := read(fetch(url))) and come(values) and values)
 
     def test_prometheus_reads_them(self):
         _, url = self.serve()

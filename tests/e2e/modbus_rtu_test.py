@@ -9,12 +9,12 @@ import select
 import signal
 import subprocess
 import sys
-import time
 import tty
 import unittest
 
 import program_case
 import service_case
+from patience import until
 
 # Debian's packages, whichever Python this is.
 sys.path.append("/usr/lib/python3/dist-packages")
@@ -25,14 +25,6 @@ LONG = 60
 RUNNING, IS_SAFE = 1, 4
 NOT_KNOWN, NO_FUNCTION, REFUSED = 0x0B, 1, 4
 TOO_LATE = 19
-
-
-def until(come, what="it"):
-    end = time.monotonic() + LONG
-    while not come():
-        if time.monotonic() > end:
-            raise AssertionError(f"never came: {what}")
-        time.sleep(0.02)
 
 
 def frame(unit, *pdu):

@@ -14,12 +14,12 @@ import socket
 import struct
 import subprocess
 import sys
-import time
 import unittest
 import zlib
 
 import program_case
 import service_case
+from patience import until
 
 # Debian's packages, whichever Python this is.
 sys.path.append("/usr/lib/python3/dist-packages")
@@ -85,14 +85,6 @@ class Master:
     def long(self, address):
         high, low = self.words(address, 2)
         return struct.unpack(">i", struct.pack(">HH", high, low))[0]
-
-
-def until(come, what="it"):
-    end = time.monotonic() + LONG
-    while not come():
-        if time.monotonic() > end:
-            raise AssertionError(f"never came: {what}")
-        time.sleep(0.02)
 
 
 class Simulated(program_case.ProgramCase):

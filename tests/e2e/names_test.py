@@ -8,10 +8,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 import program_case
+from patience import until
 
 LONG = 60  # timeout in seconds of what must come
 MACSIM = MIDISIM = NANOPLC_SIM = NANOPLC = ""
@@ -62,15 +62,9 @@ class Names(program_case.ProgramCase):
     def serve(self, command, place, before=None):
         """Until it has made its name."""
         process = self.begin(command)
-        self.until(lambda: process.poll() is not None or identity(place) not in (None, before))
+        until(lambda: process.poll() is not None or identity(place) not in (None, before))
         self.assertIsNone(process.poll(), f"{command}: {self.log()}")
         return process
-
-    def until(self, come):
-        end = time.monotonic() + LONG
-        while not come():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
 
     def log(self):
         with open(self.path("log"), encoding="utf-8") as log:
@@ -150,7 +144,7 @@ class Names(program_case.ProgramCase):
             place = self.path(kind[:-1])
             for _ in range(3):  # the second and third time in the place of one that was killed
                 all_of_them = [self.begin([MACSIM, "--mactalk", kind + place]) for _ in range(6)]
-                self.until(lambda some=all_of_them: sum(process.poll() is None for process in some) == 1)
+                until(lambda some=all_of_them: sum(process.poll() is None for process in some) == 1)
                 left = [process for process in all_of_them if process.poll() is None]
                 self.assertTrue(os.path.lexists(place))
                 left[0].kill()

@@ -8,7 +8,6 @@ import json
 import os
 import shutil
 import signal
-import socket
 import stat
 import subprocess
 import sys
@@ -17,18 +16,14 @@ import time
 import unittest
 import zlib
 
+import simulator
 import zsh
 from noisy_proxy import NoisyProxy
+from patience import until
 from program_case import ProgramCase
 
 NANOCTL = SIM = SEQC = SHUTTLE = MACREG = ""
 LONG = 60  # timeout in seconds of what must come
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Case(ProgramCase):
@@ -58,20 +53,11 @@ class Case(ProgramCase):
 
     def ctl(self, *arguments, exit_code=0, **options):
         """What is refused is refused by silence: then patience is time, and what is read afterwards is asked for ten times."""
-        result = self.call("--json", *arguments, **{"patience": 500 if exit_code else 2000, **options})
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        answer = json.loads(result.stdout.splitlines()[-1])
-        self.assertEqual(answer["ok"], exit_code == 0)
-        return answer
+        return self.document_of(self.call("--json", *arguments, **{"patience": 500 if exit_code else 2000, **options}), exit_code)
 
     def until(self, wanted, **options):
         """Looks at the status until it is as wanted."""
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            status = self.ctl("status", **options)
-            if wanted(status):
-                return status
-        self.fail(f"never came: {status}")
+        return until(lambda: wanted(status := self.ctl("status", **options)) and status, lambda: self.ctl("status", **options))
 
     def big_table(self):
         with open(self.path("big.bin"), "wb") as file:
@@ -289,7 +275,7 @@ class Operating(Case):
     """One operates; over TCP each connection is one by itself."""
 
     def test_others_are_told_who_operates_and_may_take_it_over(self):
-        self.start(endpoint=f"tcp:127.0.0.1:{free_port()}")
+        self.start(endpoint=f"tcp:127.0.0.1:{simulator.free_port()}")
         self.ctl("upload", self.table)
         holder = subprocess.Popen([NANOCTL, "--port", self.endpoint, "operate", "--take"], stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE, text=True)

@@ -38,7 +38,7 @@ class LongRuns(Case):
         # What a sanitizer keeps of freed memory is not the program's.
         environment = {**os.environ, "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=0"}
         with open(self.path("said"), "w+", encoding="utf-8") as said:
-            process = subprocess.Popen([nanoplc_sim_test.PROGRAM, "run", self.write("many.seq", MANY), "--quiet", "--baud", "115200", "--for", length,
+            process = subprocess.Popen([nanoplc_sim_test.PROGRAM, "run", self.put("many.seq", MANY), "--quiet", "--baud", "115200", "--for", length,
                                         *options], stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.DEVNULL, env=environment)
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
@@ -96,7 +96,7 @@ class Realtime(Case):
         return shown
 
     def test_every_line_fits_a_narrow_terminal(self):
-        scenario = self.write("fails.scn", b"expect at 100 ms IN0 and IN1 and IN2 and IN3 and IN4 and IN5 and OUT0 and OUT1\nend at 200 ms\n")
+        scenario = self.put("fails.scn", b"expect at 100 ms IN0 and IN1 and IN2 and IN3 and IN4 and IN5 and OUT0 and OUT1\nend at 200 ms\n")
         terminal, end = pty.openpty()
         fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
         with subprocess.Popen([nanoplc_sim_test.PROGRAM, "run", self.table, "--scenario", scenario, "--trace", self.path("t.csv")], stdin=end,

@@ -8,8 +8,9 @@ import csv
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from folder_case import FolderCase
 
 PROGRAM = ""
 END = bytes([0x3F, 0, 0, 0, 0, 0, 0, 0])
@@ -22,22 +23,10 @@ HEADER = "dt_ms,inputs,inpos,error\n"
 TRACE_HEADER = "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist"
 
 
-class Case(unittest.TestCase):
+class Case(FolderCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.table = self.write("t.bin", TABLE)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, name, content):
-        path = self.path(name)
-        with open(path, "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-        return path
+        super().setUp()
+        self.table = self.put("t.bin", TABLE)
 
     def read(self, name):
         with open(self.path(name), encoding="ascii") as file:
@@ -47,19 +36,15 @@ class Case(unittest.TestCase):
         return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, check=False)
 
     def refused(self, *arguments, stdin=b"", says=""):
-        """Exit code 2, nothing on standard output, one line on standard error that holds `says`."""
         done = self.call(*arguments, stdin=stdin)
-        error = done.stderr.decode(errors="replace")
-        self.assertEqual(done.returncode, 2, f"{arguments}: {error}")
-        self.assertEqual(done.stdout, b"", arguments)
-        self.assertEqual(error.count("\n"), 1, error)
-        self.assertIn(says, error)
-        return error
+        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode(errors="replace")
+        self.refused_in_a_line(done, says)
+        return done.stderr
 
 
 class Scan(Case):
     def scan(self, rows, table=None):
-        stimulus = self.write("s.csv", HEADER + rows)
+        stimulus = self.put("s.csv", HEADER + rows)
         done = self.call("scan", table or self.table, "--stimulus", stimulus)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         return done.stdout.decode()
@@ -76,18 +61,18 @@ class Scan(Case):
         self.assertEqual(done.stdout.decode().splitlines()[1], "1,1,490,0,1,,")
 
     def test_bytes_after_the_end_term_are_ignored(self):
-        table = self.write("more.bin", TABLE + b"rubbish")
+        table = self.put("more.bin", TABLE + b"rubbish")
         self.assertIn("1,1,490,0,1,,", self.scan("10,0,0,0\n", table))
 
     def test_another_file_is_no_empty_table(self):
-        stimulus = self.write("s.csv", HEADER)
+        stimulus = self.put("s.csv", HEADER)
         for content in (b"\xff\xfe" + bytes(20) + b"a", b"?" * 7 + b"\x01" * 9, b"\xff\xfeP\0R\0O\0"):
-            self.refused("run", self.write("t.bin", content), says="t.bin: ")
+            self.refused("run", self.put("t.bin", content), says="t.bin: ")
             self.refused("scan", self.path("t.bin"), "--stimulus", stimulus, says="t.bin: ")
-        self.assertEqual(self.call("run", self.write("t.bin", b"\xff" * 64), "--for", "1ms").returncode, 0)  # erased flash
+        self.assertEqual(self.call("run", self.put("t.bin", b"\xff" * 64), "--for", "1ms").returncode, 0)  # erased flash
 
     def test_bad_tables(self):
-        stimulus = self.write("s.csv", HEADER + "10,0,0,0\n")
+        stimulus = self.put("s.csv", HEADER + "10,0,0,0\n")
         bad = {
             b"": "the file is empty",
             TABLE[:12]: "term 1 (byte 8)",
@@ -98,7 +83,7 @@ class Scan(Case):
         }
         for content, says in bad.items():
             with self.subTest(says):
-                table = self.write("bad.bin", content)
+                table = self.put("bad.bin", content)
                 self.refused("scan", table, "--stimulus", stimulus, says=says)
                 self.assertIn("bad.bin", self.refused("scan", table, "--stimulus", stimulus))
 
@@ -118,20 +103,20 @@ class Scan(Case):
         }
         for content, says in bad.items():
             with self.subTest(content):
-                self.refused("scan", self.table, "--stimulus", self.write("s.csv", content), says=says)
+                self.refused("scan", self.table, "--stimulus", self.put("s.csv", content), says=says)
 
     def test_files_that_are_not_there(self):
-        stimulus = self.write("s.csv", HEADER)
+        stimulus = self.put("s.csv", HEADER)
         self.refused("scan", self.path("no.bin"), "--stimulus", stimulus, says="no.bin: cannot be opened")
         self.refused("scan", self.table, "--stimulus", self.path("no.csv"), says="no.csv: cannot be opened")
         self.refused("scan", self.folder.name, "--stimulus", stimulus, says="it is a folder")
         for name in ("x.seq", "X.SEQ"):
-            self.refused("scan", self.write(name, "PROGRAM X"), "--stimulus", stimulus, says="source, not a table")
+            self.refused("scan", self.put(name, "PROGRAM X"), "--stimulus", stimulus, says="source, not a table")
 
     def test_text_is_no_table(self):
-        stimulus = self.write("s.csv", HEADER)
+        stimulus = self.put("s.csv", HEADER)
         for content in (SOURCE, "Täglich\r\n"):
-            source = self.write("my.st", content)
+            source = self.put("my.st", content)
             says = f"my.st: text, not a raw table; if it is a program's source, build the table first: seqc build {source}"
             self.refused("scan", source, "--stimulus", stimulus, says=says)
             self.refused("run", source, says=says)
@@ -140,7 +125,7 @@ class Scan(Case):
         whole = self.scan("10,0,0,0\n5,0,0,0\n")
         for end in ("", "\n\n", "\r\n\r\n", "\n \t\n\n "):
             self.assertEqual(self.scan("10,0,0,0\n5,0,0,0" + end), whole, repr(end))
-        self.refused("scan", self.table, "--stimulus", self.write("s.csv", "\n\n"), says="s.csv:1: the header")
+        self.refused("scan", self.table, "--stimulus", self.put("s.csv", "\n\n"), says="s.csv:1: the header")
 
 
 class CommandLine(Case):
@@ -172,7 +157,7 @@ class CommandLine(Case):
 
 class Run(Case):
     def run_with(self, scenario, *more):
-        return self.call("run", self.table, "--scenario", self.write("s.scn", scenario), *more)
+        return self.call("run", self.table, "--scenario", self.put("s.scn", scenario), *more)
 
     def test_timeline_and_summary(self):
         done = self.run_with("at 1 s IN0 := 1\nend at 2 s\nexpect step = 2\nexpect at 100 ms OUT0\n")
@@ -228,7 +213,7 @@ class Run(Case):
         }
         for content, says in bad.items():
             with self.subTest(content):
-                scenario = self.write("s.scn", content.encode("latin-1"))
+                scenario = self.put("s.scn", content.encode("latin-1"))
                 if says:
                     self.refused("run", self.table, "--scenario", scenario, says=says)
                 else:
@@ -238,13 +223,13 @@ class Run(Case):
         self.refused("run", self.table, "--scenario", self.path("no.scn"), says="no.scn: cannot be opened")
 
     def test_all_mistakes_of_a_scenario_are_told(self):
-        scenario = self.write("s.scn", "att 1 s IN0 := 1\nexpect stp = 3\nend at 1 s\nat 1 s pulze IN0 50 ms\n")
+        scenario = self.put("s.scn", "att 1 s IN0 := 1\nexpect stp = 3\nend at 1 s\nat 1 s pulze IN0 50 ms\n")
         done = self.call("run", self.table, "--scenario", scenario)
         self.assertEqual((done.returncode, done.stdout), (2, b""))
         places = [line.split(": ", 1)[0].rsplit("/", 1)[1] for line in done.stderr.decode().splitlines()]
         self.assertEqual(places, ["s.scn:1:1", "s.scn:2:8", "s.scn:4:8"])
         self.assertIn(b"did you mean pulse?", done.stderr)
-        many = self.write("s.scn", "a=\n" * 1_000_000)
+        many = self.put("s.scn", "a=\n" * 1_000_000)
         done = self.call("run", self.table, "--scenario", many)
         self.assertEqual(done.stderr.count(b"\n"), 21)
         self.assertTrue(done.stderr.endswith(b"980 or more mistakes\n"), done.stderr)
@@ -277,14 +262,14 @@ class Run(Case):
 
     def test_commands_in_the_trace(self):
         # NOP (60h) and register 65 := 300, once; 001 sections 6.1.7 and 6.1.8.
-        self.table = self.write("c.bin", bytes([0xC0, 0, 0, 0x01, 0x60, 0, 0, 0, 0xC0, 0, 0x80, 65, 44, 1, 0, 0]) + END)
+        self.table = self.put("c.bin", bytes([0xC0, 0, 0, 0x01, 0x60, 0, 0, 0, 0xC0, 0, 0x80, 65, 44, 1, 0, 0]) + END)
         self.run_with("end at 200 ms\n", "--trace", self.path("t.csv"))
         commands = [row["command"] for row in csv.DictReader(self.read("t.csv").splitlines()) if row["command"]]
         self.assertEqual(commands, ["60 65=300"])
 
     def test_orders_on_their_way_at_the_end_are_not_lost(self):
         # VELOCITY(V1) is mode 01, register 01000: 28h; 001 sections 5.2.1.4 and 6.1.7.
-        self.table = self.write("c.bin", bytes([0xC0, 0, 0, 0x01, 0x28, 0, 0, 0]) + END)
+        self.table = self.put("c.bin", bytes([0xC0, 0, 0, 0x01, 0x28, 0, 0, 0]) + END)
         good = "the motor executed what was ordered, and nothing else\n"
         whole = self.call("run", self.table, "--for", "1s").stdout.decode()
         self.assertIn("\n" + good, whole)
@@ -295,7 +280,7 @@ class Run(Case):
         self.assertNotIn("not executed", cut)
 
     def test_a_stand_in_for_a_midi_drive_is_told(self):
-        program = self.write("d.seq", b"PROGRAM P\nMOTOR MAC34;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+        program = self.put("d.seq", b"PROGRAM P\nMOTOR MAC34;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
                              b"STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
         told = self.call("run", program, "--for", "20ms").stderr.decode()
         self.assertIn("a MAC140 stands in for the MIDI drive; --motor MAC34-1 takes the drive", told)
@@ -315,7 +300,7 @@ class Run(Case):
             self.refused("run", self.table, "--for", "1s", option, self.folder.name, says="it is a folder")
 
     def test_a_trace_never_lands_on_an_input(self):
-        scenario = self.write("s.scn", "end at 1 s\n")
+        scenario = self.put("s.scn", "end at 1 s\n")
         os.symlink(self.table, self.path("symbolic.bin"))
         os.link(self.table, self.path("hard.bin"))
         around = os.path.join(self.folder.name, ".", "t.bin")
@@ -326,7 +311,7 @@ class Run(Case):
             self.refused("run", self.path("symbolic.bin"), "--for", "1s", option, self.table, says="overwrite the program")
             self.refused("run", self.table, "--scenario", scenario, option, scenario, says="overwrite the scenario")
             # A trace is gathered in NAME.part.
-            part = self.write("k.part", TABLE)
+            part = self.put("k.part", TABLE)
             self.refused("run", part, "--for", "1s", option, self.path("k"), says="overwrite the program")
         with open(self.table, "rb") as file:
             self.assertEqual(file.read(), TABLE)
@@ -338,7 +323,7 @@ class Run(Case):
 
     def test_two_traces_are_two_files(self):
         os.symlink(self.path("new"), self.path("dangling"))
-        self.write("old", "old")
+        self.put("old", "old")
         for csv_name, vcd_name in (("new", "new"), ("new", "./new"), ("dangling", "new"), ("old", "old"),
                                    ("new", "new.part"), ("new.part", "new")):
             with self.subTest(csv=csv_name, vcd=vcd_name):
@@ -355,7 +340,7 @@ class Run(Case):
         self.assertTrue(self.read("new.csv").startswith(TRACE_HEADER))
 
     def test_a_trace_is_written_whole_or_not_at_all(self):
-        self.write("s.scn", "when IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\nend at 1 s\n")
+        self.put("s.scn", "when IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\nend at 1 s\n")
         self.call("run", self.table, "--scenario", self.path("s.scn"), "--trace", self.path("t.csv"))
         self.assertEqual(sorted(os.listdir(self.folder.name)), ["s.scn", "t.bin"])
 
@@ -394,20 +379,20 @@ END_PROGRAM
 
 class Source(Case):
     def test_a_source_runs_with_its_names(self):
-        source = self.write("blink.seq", SOURCE)
-        scenario = self.write("s.scn", "at 100 ms pulse Go 50 ms\nexpect Lamp within 10 ms after Go rises\n"
+        source = self.put("blink.seq", SOURCE)
+        scenario = self.put("s.scn", "at 100 ms pulse Go 50 ms\nexpect Lamp within 10 ms after Go rises\n"
                                        "expect at 125 ms step = Lit\nexpect step = Off\nend at 1 s\n")
         done = self.call("run", source, "--scenario", scenario)
         self.assertEqual(done.returncode, 0, done.stdout.decode() + done.stderr.decode())
         self.assertIn("Off -> Lit\n", done.stdout.decode())
 
     def test_the_extension_is_read_without_case(self):
-        done = self.call("run", self.write("BLINK.SEQ", SOURCE), "--for", "50ms")
+        done = self.call("run", self.put("BLINK.SEQ", SOURCE), "--for", "50ms")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Off", done.stdout.decode())
 
     def test_mistakes_of_a_source_are_the_compilers(self):
-        source = self.write("bad.seq", SOURCE.replace("NEXT := Lit", "NEXT := Lid"))
+        source = self.put("bad.seq", SOURCE.replace("NEXT := Lit", "NEXT := Lid"))
         done = self.call("run", source)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stdout, b"")
@@ -416,7 +401,7 @@ class Source(Case):
 
     def test_many_mistakes_of_a_source_are_said_to_be_more(self):
         steps = "STEP S: IF Q THEN NEXT := Z; END_IF END_STEP\n" * 500
-        done = self.call("run", self.write("bad.seq", "PROGRAM P\n" + steps + "END_PROGRAM\n"))
+        done = self.call("run", self.put("bad.seq", "PROGRAM P\n" + steps + "END_PROGRAM\n"))
         self.assertEqual(done.returncode, 2)
         lines = done.stderr.decode().splitlines()[-2:]
         self.assertIn("there are more; only 100 are shown", lines[0])

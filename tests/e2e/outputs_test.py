@@ -45,16 +45,11 @@ class Outputs(program_case.ProgramCase):
         self.doCleanups()
         super().tearDown()
 
-    def text(self, name, content):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(content)
-        return self.path(name)
-
     def makers(self):
         """What makes a file from files, by name: how, and how the file must be called."""
         run = [program("nanoplc-sim"), "run", self.table, "--for", "200ms", "--quiet"]
         seqc = program("seqc")
-        recording = self.text("recording.csv", "time_s,P_IST [counts]\n0,1\n1,2\n")
+        recording = self.put("recording.csv", "time_s,P_IST [counts]\n0,1\n1,2\n")
         return {
             "build": (lambda out: [seqc, "build", SEQUENCE, "--no-symbols", "-o", out], "t.bin"),
             "build hex": (lambda out: [seqc, "build", SEQUENCE, "--no-symbols", "-o", out], "t.hex"),
@@ -67,7 +62,7 @@ class Outputs(program_case.ProgramCase):
             "fmt": (lambda out: [seqc, "fmt", SEQUENCE, "-o", out], "t.seq"),
             "trace": (lambda out: [*run, "--trace", out], "t.csv"),
             "vcd": (lambda out: [*run, "--vcd", out], "t.vcd"),
-            "junit": (lambda out: [*run, "--scenario", self.text("s.scn", "never ERROR\n"), "--junit", out], "t.xml"),
+            "junit": (lambda out: [*run, "--scenario", self.put("s.scn", "never ERROR\n"), "--junit", out], "t.xml"),
             "plot": (lambda out: [program("macreg"), "plot", recording, "-o", out], "t.svg"),
         }
 
@@ -143,7 +138,7 @@ class Outputs(program_case.ProgramCase):
         self.assertEqual(left, {os.path.basename(out), os.readlink(out)})
         self.assertTrue(self.content(out))
         self.clear()
-        victim = self.text("victim", "precious")
+        victim = self.put("victim", "precious")
         os.symlink(victim, out + ".part")
         self.good(command(out))
         self.assertEqual(self.content(victim), b"precious")
@@ -197,7 +192,7 @@ class Outputs(program_case.ProgramCase):
     def test_a_recording_is_refused_before_the_motor_moves(self):
         command, out = self.readers()["record"]
         move = ["--yes", "--move", "P_SOLL=+4096"]
-        self.refused([*command(self.text(out, "old")), *move], "is there already")
+        self.refused([*command(self.put(out, "old")), *move], "is there already")
         self.refused([*command(self.path("no/t.csv")), *move], "No such file")
         position = self.call([program("macreg"), "--port", "unix:" + self.path("motor"), "get", "P_SOLL"]).stdout
         self.assertIn("P_SOLL = 0 ", position)
@@ -216,7 +211,7 @@ class Outputs(program_case.ProgramCase):
                 self.refused([*command, os.path.join(self.disk, "no", "memory")], "No such file", "/no/memory")
                 self.refused([*command, self.disk], self.disk)
                 self.refused([*command, "/dev/zero"], "/dev/zero")
-                victim = self.text("victim", "precious")
+                victim = self.put("victim", "precious")
                 self.refused([*command, victim], victim)
                 self.assertEqual(self.content(victim), b"precious")
                 os.mkfifo(memory)
@@ -233,7 +228,7 @@ class Outputs(program_case.ProgramCase):
             self.addCleanup(os.close, end)
         state = os.path.join(self.disk, "state")
         os.makedirs(os.path.join(state, "x"))
-        config = self.text("nanoplc.toml", f'[service]\nstate_directory = "{state}"\n[[axis]]\nname = "x"\ntable = "none"\n'
+        config = self.put("nanoplc.toml", f'[service]\nstate_directory = "{state}"\n[[axis]]\nname = "x"\ntable = "none"\n'
                                            f'[axis.motor]\nport = "{os.ttyname(ends[1])}"\n')
         self.fill()
         with subprocess.Popen([program("nanoplc"), "--config", config], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -251,7 +246,7 @@ class Outputs(program_case.ProgramCase):
         self.fill()
         os.unlink(os.path.join(self.disk, "filler"))
         blink = self.path("blink.bin")
-        subprocess.run([program("seqc"), "build", self.text("blink.seq", BLINK), "-o", blink], check=True, capture_output=True)
+        subprocess.run([program("seqc"), "build", self.put("blink.seq", BLINK), "-o", blink], check=True, capture_output=True)
         command = [program("nanoplc-sim"), "run", blink, "--for", "6000min", "--quiet"]
         for option in ("--trace", "--vcd"):
             self.refused([*command, option, os.path.join(self.disk, "t")], "No space left")

@@ -30,11 +30,6 @@ class PlotTrace(FolderCase):
     def plot(self, *words):
         return self.run_program(sys.executable, "-B", os.path.join(ROOT, "tools/plot_trace"), *words)
 
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return name
-
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
@@ -62,7 +57,7 @@ class PlotTrace(FolderCase):
         self.assertTrue({"IN0", "OUT0", "2", "counts"}.isdisjoint(texts))
 
     def test_a_step_that_blinks_is_one_box(self):
-        self.write("b.seq", """PROGRAM Blink
+        self.put("b.seq", """PROGRAM Blink
 MOTOR MAC140;
 VAR_INPUT Start AT IN0 : BOOL; END_VAR
 VAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR
@@ -71,7 +66,7 @@ STEP Idle: OWN ERROR; OUT Lamp BLINKING 100 ms; IF R_TRIG(Start) THEN NEXT := Wo
 STEP Work: OWN ERROR; IF NOT Start THEN NEXT := Idle; END_IF END_STEP
 END_PROGRAM
 """)
-        self.write("b.scn", "at 1200 ms Start := 1\nend at 2 s\n")
+        self.put("b.scn", "at 1200 ms Start := 1\nend at 2 s\n")
         done = self.run_program(NANOPLC_SIM, "run", "b.seq", "--scenario", "b.scn", "--quiet", "--trace", "b.csv")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(self.plot("b.csv", "-o", "b.svg").returncode, 0)
@@ -79,12 +74,12 @@ END_PROGRAM
         self.assertEqual((texts.count("Idle"), texts.count("Work")), (1, 1), texts)
 
     def test_what_a_count_is_comes_from_the_motor_that_ran(self):
-        self.write("p.seq", "PROGRAM P MOTOR MAC800; SCALE 1 rev = 360 deg; STEP A: OWN ERROR; IF IN0 THEN NEXT := POWER_UP; END_IF "
+        self.put("p.seq", "PROGRAM P MOTOR MAC800; SCALE 1 rev = 360 deg; STEP A: OWN ERROR; IF IN0 THEN NEXT := POWER_UP; END_IF "
                             "END_STEP END_PROGRAM\n")
         done = self.run_program(NANOPLC_SIM, "run", "p.seq", "--for", "100ms", "--quiet", "--trace", "t.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(self.read("t.csv.sym"))["trace"], {"counts_per_rev": 8000, "samples_per_second": 770})
-        self.write("turn.csv", HEADER + "0,0,0,0,0,0,0,0,,0,0\n1,0,0,0,0,0,0,0,,8000,770\n")
+        self.put("turn.csv", HEADER + "0,0,0,0,0,0,0,0,,0,0\n1,0,0,0,0,0,0,0,,8000,770\n")
         os.rename(self.path("t.csv.sym"), self.path("turn.csv.sym"))
         self.assertEqual(self.plot("turn.csv", "-o", "t.svg").returncode, 0)
         texts = re.findall(r">([^<]*)</text>", self.read("t.svg"))
@@ -105,7 +100,7 @@ END_PROGRAM
         self.refused(["t.csv", "-o", "no.svg", "--sym", "other.sym"], "other.sym: is of Press", "t.csv is of PickAndPlace")
         os.remove(self.path("t.csv.sym"))
         self.refused(["t.csv", "-o", "no.svg", "--sym", "other.sym"], "other.sym: Press begins by writing")
-        self.write("step.csv", HEADER + "0,0,0,0,0,0,0,0,,0,0\n1,40,0,0,0,0,0,0,,0,0\n")
+        self.put("step.csv", HEADER + "0,0,0,0,0,0,0,0,,0,0\n1,40,0,0,0,0,0,0,,0,0\n")
         self.refused(["step.csv", "-o", "no.svg", "--sym", "other.sym"], "has no step 40")
 
     def test_nothing_is_written_over(self):
@@ -116,7 +111,7 @@ END_PROGRAM
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.read("t.csv.sym"), symbols)
         self.assertEqual(self.plot("t.csv", "-o", "t.svg").returncode, 0)
-        self.write("u.csv.sym", "at 0 ms IN0 := 1\nend at 10 ms\n")
+        self.put("u.csv.sym", "at 0 ms IN0 := 1\nend at 10 ms\n")
         done = self.run_program(NANOPLC_SIM, "run", "t.bin", "--scenario", "u.csv.sym", "--trace", "u.csv")
         self.assertEqual(done.returncode, 2)
         self.assertIn("would overwrite the scenario", done.stderr)

@@ -9,8 +9,9 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from folder_case import FolderCase
 
 SEQC = NANOPLC_SIM = ROOT = ""
 EXAMPLE = "tools/seqc/examples/pick_and_place"
@@ -31,19 +32,10 @@ def block_after(text, words):
     return unindented(block.group(0)).rstrip("\n")
 
 
-class Readme(unittest.TestCase):
+class Readme(FolderCase):
     def setUp(self):
+        super().setUp()
         self.text = read("tools/seqc/README.md")
-        self.folder = tempfile.TemporaryDirectory()
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def write(self, name, text):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
 
     def run_program(self, *command):
         return subprocess.run(command, capture_output=True, text=True, check=False, cwd=self.folder.name)
@@ -58,19 +50,19 @@ class Tutorial(Readme):
         programs = self.programs()
         self.assertGreaterEqual(len(programs), 2)
         for program in programs:
-            done = self.run_program(SEQC, "check", self.write("p.seq", program))
+            done = self.run_program(SEQC, "check", self.put("p.seq", program))
             self.assertEqual((done.returncode, done.stderr), (0, ""), program)
 
     def test_the_scenario_holds(self):
         scenario = re.search(r"(?m)^    # feeder\.scn\n((?:    .*\n)+)", self.text).group(1)
-        done = self.run_program(NANOPLC_SIM, "run", self.write("feeder.seq", self.programs()[-1]), "--scenario",
-                                self.write("feeder.scn", unindented(scenario)))
+        done = self.run_program(NANOPLC_SIM, "run", self.put("feeder.seq", self.programs()[-1]), "--scenario",
+                                self.put("feeder.scn", unindented(scenario)))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("3 passed, 0 failed", done.stdout)
 
     def test_what_build_says_of_it(self):
         said = re.search(r"says in one line what it wrote \(`([^`]+)`\)", self.text).group(1)
-        done = self.run_program(SEQC, "build", self.write("feeder.seq", self.programs()[-1]), "-o", "F.bin")
+        done = self.run_program(SEQC, "build", self.put("feeder.seq", self.programs()[-1]), "-o", "F.bin")
         self.assertEqual((done.stdout + done.stderr).strip(), said)
 
 
@@ -110,12 +102,12 @@ class FrontPage(Readme):
         self.assertIn(">Go</text>", read(os.path.join(self.folder.name, "trace.svg")))
 
     def test_no_picture_with_wrong_symbols(self):
-        trace = self.write("t.csv", "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n"
+        trace = self.put("t.csv", "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n"
                                     "0,0,0,0,0,0,0,0,,0,0\n1,0,0,0,0,0,0,0,,0,0\n")
         for text, said in (("{", "bad.sym:1:2: this is not JSON"), ("[]", "bad.sym: no symbol file"),
                            ('{"format": "nanoplc-symbols", "version": 2}', "bad.sym: no symbol file of version 1")):
             done = self.run_program(os.path.join(ROOT, "tools/plot_trace"), trace, "-o", "no.svg", "--sym",
-                                    self.write("bad.sym", text))
+                                    self.put("bad.sym", text))
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(said, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
@@ -146,7 +138,7 @@ class Outputs(Readme):
 
     def test_json(self):
         shown = json.loads(block_after(self.text, "print one JSON document"))
-        self.write("a.seq", "PROGRAM P\nSTEP s: OWN ERROR; END_STEP\nSTEP s: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        self.put("a.seq", "PROGRAM P\nSTEP s: OWN ERROR; END_STEP\nSTEP s: OWN ERROR; END_STEP\nEND_PROGRAM\n")
         self.assertEqual(json.loads(self.run_program(SEQC, "check", "--json", "a.seq").stdout), shown)
 
     def test_diff(self):
@@ -166,14 +158,14 @@ class Outputs(Readme):
         self.assertEqual(self.diff(before, after), block_after(self.text, "or what is different:").split("\n")[3:])
 
     def diff(self, before, after):
-        done = self.run_program(SEQC, "diff", self.write("A.seq", before), self.write("B.seq", after))
+        done = self.run_program(SEQC, "diff", self.put("A.seq", before), self.put("B.seq", after))
         self.assertEqual(done.returncode, 1, done.stderr)
         return [line.rstrip() for line in done.stdout.strip().split("\n")]
 
     def test_time_on_the_line(self):
         said = re.search(r"`V1 := 1500 rpm` takes.*?, ([\d.]+) ms at 19200 baud, of\s+which (\d+) are ours", self.text,
                          re.DOTALL)
-        self.write("v.seq", "PROGRAM P\nMOTOR MAC140;\n"
+        self.put("v.seq", "PROGRAM P\nMOTOR MAC140;\n"
                             "STEP S: OWN ERROR; IF IN0 THEN V1 := 1500 rpm; NEXT := T; END_IF END_STEP\n"
                             "STEP T: OWN ERROR; END_STEP\nEND_PROGRAM\n")
         done = self.run_program(SEQC, "report", "--json", "--baud", "19200", "v.seq")

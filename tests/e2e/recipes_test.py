@@ -43,6 +43,8 @@ class Recipes(unittest.TestCase):
                                         text=True, check=False)
                 self.assertEqual(played.returncode, 0, played.stdout + played.stderr)
                 self.assertIn(" 0 failed", played.stdout)
+                verified = subprocess.run([SEQC, "verify", program], capture_output=True, text=True, check=False)
+                self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
         self.assertGreaterEqual(count, 13)
 
 

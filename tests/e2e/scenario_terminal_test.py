@@ -42,8 +42,8 @@ class Narrow(Case):
 
     def test_eighty_columns_hold_all_that_happens(self):
         ((_, program),) = blocks("seq")
-        self.write("station.seq", program)
-        self.write("s.scn", blocks("scn")[1][1] + "at 500 ms log \"" + "a long remark " * 12 + "x" * 100 + "\"\n")
+        self.put("station.seq", program)
+        self.put("s.scn", blocks("scn")[1][1] + "at 500 ms log \"" + "a long remark " * 12 + "x" * 100 + "\"\n")
         run = ["station.seq", "--scenario", "s.scn"]
         narrow = self.on_a_terminal(80, *run)
         self.assertLessEqual(max(map(len, narrow)), 80)
@@ -61,7 +61,7 @@ class Narrow(Case):
         self.assertTrue(any(len(line) > 200 for line in piped.split("\n")), "a pipe is not broken")
 
     def test_a_step_with_a_long_name(self):
-        self.write("long.seq", "PROGRAM P\nMOTOR MAC140;\nSTEP The_Step_With_The_Long_Name: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        self.put("long.seq", "PROGRAM P\nMOTOR MAC140;\nSTEP The_Step_With_The_Long_Name: OWN ERROR; END_STEP\nEND_PROGRAM\n")
         lines = self.on_a_terminal(80, "long.seq", "--for", "50ms")
         self.assertLessEqual(max(map(len, lines)), 80)
 

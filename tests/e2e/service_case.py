@@ -8,16 +8,14 @@ import os
 import signal
 import re
 import subprocess
-import tempfile
 import threading
-import time
-import unittest
 
 import simulator
 from commissioned import commission
+from folder_case import FolderCase
+from patience import LONG, until
 
 NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = ""
-LONG = 60  # timeout in seconds of what must come
 
 
 class Service:
@@ -43,11 +41,11 @@ class Service:
         return code
 
 
-class ServiceCase(unittest.TestCase):
+class ServiceCase(FolderCase):
     PATIENCE = "motor_silence = 200\npoll_limit = 1000000\n"  # machines that test are busy
 
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
+        super().setUp()
         self.running = []
         self.motors = {}
         self.table = self.path("mending.bin")
@@ -58,10 +56,7 @@ class ServiceCase(unittest.TestCase):
             service.end(signal.SIGKILL)
         for name in list(self.motors):
             self.pull_out(name)
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
+        super().tearDown()
 
     def plug_in(self, name="motor"):
         process, _ = simulator.start(MACSIM, "--model", "MAC140", "--address", "1", "--fastmac", "pty:" + self.path(name),
@@ -89,11 +84,8 @@ class ServiceCase(unittest.TestCase):
         """Punctual where it may be: machines that test are busy."""
         for axis in () if are_new else axes:
             commission(self.state_folder(), re.search(r'^name = "(.*)"$', axis, re.M).group(1))
-        config = self.path("nanoplc.toml")
-        with open(config, "w", encoding="utf-8") as file:
-            file.write(f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n')
-            file.write("\n".join(axes))
-        return config
+        head = f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n'
+        return self.put("nanoplc.toml", head + "\n".join(axes))
 
     def start(self, config, wait_for="started with", **environment):
         service = Service(config, **environment)
@@ -105,28 +97,19 @@ class ServiceCase(unittest.TestCase):
         self.running.remove(service)
         return service.end(how)
 
-    def until(self, come, seen=None):
-        end = time.monotonic() + LONG
-        while not come():
-            if time.monotonic() > end:
-                self.fail(f"never came: {seen.said() if seen else ''}")
-            time.sleep(0.02)
+    @staticmethod
+    def until(come, seen=None):
+        until(come, seen.said if seen else "it")
 
     def ctl(self, *arguments, port="x", exit_code=0):
         """What is refused is refused by silence: then patience is time, and what is read afterwards is asked for ten times."""
         endpoint = port if port.startswith("/") else "unix:" + self.path(port)
         result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500" if exit_code else "2000", "--json", *arguments],
                                 capture_output=True, text=True, timeout=4 * LONG, check=False)
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        return json.loads(result.stdout.splitlines()[-1])
+        return self.document_of(result, exit_code)
 
     def until_status(self, wanted, port="x"):
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            status = self.ctl("status", port=port)
-            if wanted(status):
-                return status
-        self.fail(f"never came: {status}")
+        return until(lambda: wanted(status := self.ctl("status", port=port)) and status, lambda: self.ctl("status", port=port))
 
     def moves(self, port="x"):
         """Orders are being executed."""
@@ -140,8 +123,6 @@ class ServiceCase(unittest.TestCase):
         return json.loads(result.stdout)["registers"][0]["value"]
 
     def check(self, text, *flags):
-        config = self.path("checked.toml")
-        with open(config, "w", encoding="utf-8") as file:
-            file.write(text)
+        config = self.put("checked.toml", text)
         result = subprocess.run([NANOPLC, "check-config", config, *flags], capture_output=True, text=True, check=False)
         return result.returncode, [line.removeprefix(config + ":") for line in result.stderr.splitlines()]

@@ -1,5 +1,6 @@
 """A simulator as a test needs it: started, and ready."""
 
+import socket
 import subprocess
 import threading
 
@@ -20,3 +21,9 @@ def until_ready(process):
             return lines
         lines.append(line)
     raise AssertionError(f"ended before it was ready: {process.communicate()}")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]

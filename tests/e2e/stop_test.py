@@ -94,7 +94,7 @@ class Gateway(ServiceCase):
         super().setUp()
         self.clients = []
         self.endpoint = {"unix": "unix:" + self.path("x"), "pty": "pty:" + self.path("x"),
-                         "tcp": f"tcp:127.0.0.1:{free_port()}"}[self.KIND]
+                         "tcp": f"tcp:127.0.0.1:{simulator.free_port()}"}[self.KIND]
         self.gateway = self.begin()
         self.wait_until_it_runs()
 
@@ -141,12 +141,6 @@ class Gateway(ServiceCase):
         begun = time.monotonic()
         subprocess.run([service_case.NANOCTL, "--version"], capture_output=True, timeout=LONG, check=True)
         return time.monotonic() - begun
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Service(Gateway):

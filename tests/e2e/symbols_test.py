@@ -8,9 +8,10 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 import zlib
+
+from folder_case import FolderCase
 
 SEQC = ""
 SIM = ""
@@ -35,21 +36,11 @@ end at 300 ms
 """
 
 
-class Case(unittest.TestCase):
+class Case(FolderCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.write("blink.seq", SOURCE)
-        self.write("blink.scn", SCENARIO)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
+        super().setUp()
+        self.put("blink.seq", SOURCE)
+        self.put("blink.scn", SCENARIO)
 
     def read(self, name):
         with open(self.path(name), "rb") as file:
@@ -109,7 +100,7 @@ class Names(Case):
         self.build("-o", "t.bin")
         # A term of step 40, which nothing leads to, in front of the end term.
         table = self.read("t.bin")
-        self.write("t.bin", table[:-8] + bytes([0xE8, 0, 0, 0x3E, 0x80, 0, 0, 0]) + table[-8:])
+        self.put("t.bin", table[:-8] + bytes([0xE8, 0, 0, 0x3E, 0x80, 0, 0, 0]) + table[-8:])
         done = self.call(SIM, "run", "t.bin", "--for", "50ms")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"^t\.sym: it belongs to another table \(.*\); names are left out\n$")
@@ -119,7 +110,7 @@ class Names(Case):
 
     def test_bytes_after_the_end_do_not_matter(self):
         self.build("-o", "t.bin")
-        self.write("t.bin", self.read("t.bin") + b"rubbish")
+        self.put("t.bin", self.read("t.bin") + b"rubbish")
         self.assertIn("Dark -> Lit", self.runs("t.bin").stdout)
 
     def test_a_broken_symbol_file_is_no_symbol_file(self):
@@ -127,7 +118,7 @@ class Names(Case):
         whole = json.loads(self.read("t.sym"))
         whole["steps"][1]["name"] = "\x1b[2J"
         for content in (b"", b"\x00", json.dumps(whole)):
-            self.write("t.sym", content)
+            self.put("t.sym", content)
             done = self.call(SIM, "run", "t.bin", "--for", "50ms")
             self.assertEqual(done.returncode, 0)
             self.assertRegex(done.stderr, r"^t\.sym: .*; names are left out\n$")
@@ -167,7 +158,7 @@ class Traces(Case):
 
 class IntelHex(Case):
     def scan(self, table):
-        self.write("s.csv", "dt_ms,inputs,inpos,error\n10,0,0,0\n10,1,0,0\n10,0,0,0\n")
+        self.put("s.csv", "dt_ms,inputs,inpos,error\n10,0,0,0\n10,1,0,0\n10,0,0,0\n")
         return self.call(SIM, "scan", table, "--stimulus", "s.csv")
 
     def test_scan_takes_it(self):
@@ -194,7 +185,7 @@ class IntelHex(Case):
         }
         for content, says in bad.items():
             with self.subTest(says):
-                self.write("t.hex", content)
+                self.put("t.hex", content)
                 done = self.scan("t.hex")
                 self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)

@@ -76,7 +76,7 @@ class TextForms(FolderCase):
         yield "x.toml", AXIS, lambda file: (*sim, self.table, "--for", "50ms", "--plant", file)
         yield "x.stimulus", "dt_ms,inputs,inpos,error\n10,0,0,0\n5,1,0,0\n", lambda file: (
             "nanoplc-sim", "scan", self.table, "--stimulus", file)
-        yield "x.params", PARAMETERS, lambda file: ("macreg", "diff", "--partial", file, self.write("same.params", PARAMETERS))
+        yield "x.params", PARAMETERS, lambda file: ("macreg", "diff", "--partial", file, self.put("same.params", PARAMETERS))
         yield "x.recording", "time_s,P_IST [counts]\n0,1\n1,2\n", lambda file: ("macreg", "plot", file, "-o", self.path("o.svg"))
         yield "x.path", "time,0 [inc]\n0,0\n1,500\n", lambda file: ("macreg", "midi", "path", "--check", file)
         yield "x.bytes", "50 50 50 08 F7 # one\n52 52 52\n", lambda file: ("macreg", "monitor", "--replay", file)
@@ -84,13 +84,8 @@ class TextForms(FolderCase):
         if os.path.exists(os.path.join(BIN, "nanoplc")):
             yield "x.toml", '[service]\nstate_directory = "/none"\n', lambda file: ("nanoplc", "check-config", "--no-devices", file)
 
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-        return self.path(name)
-
     def outcome(self, name, content, command):
-        done = self.run_program(*command(self.write(name, content)))
+        done = self.run_program(*command(self.put(name, content)))
         return done.returncode, re.sub(rb"\d+ pixels", b"", done.stdout), done.stderr
 
     def test_each_is_taken_by_every_reader(self):
@@ -127,7 +122,7 @@ class TextForms(FolderCase):
         file = self.path("p.seq")
         self.run_well("seqc", "fmt", "-i", file)
         formatted = self.text_of("p.seq")
-        self.write("p.seq", b"\xef\xbb\xbf" + formatted.replace("\n", "\r\n").encode())
+        self.put("p.seq", b"\xef\xbb\xbf" + formatted.replace("\n", "\r\n").encode())
         self.assertEqual(self.run_program("seqc", "fmt", "--check", file).returncode, 1)
         self.run_well("seqc", "fmt", "-i", file)
         self.assertEqual(self.text_of("p.seq"), formatted)

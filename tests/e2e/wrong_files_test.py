@@ -26,7 +26,7 @@ def program(name):
 class WrongFiles(program_case.ProgramCase):
     def setUp(self):
         super().setUp()
-        self.scenario = self.write("right.scn", "end at 10 ms\n")
+        self.scenario = self.put("right.scn", "end at 10 ms\n")
         self.table = self.path("right.bin")
         subprocess.run([program("seqc"), "build", SEQUENCE, "-o", self.table], check=True, stdout=subprocess.DEVNULL)
         self.gateway, self.motor = "unix:" + self.path("gateway"), "unix:" + self.path("motor")
@@ -38,11 +38,6 @@ class WrongFiles(program_case.ProgramCase):
         self.launch(program("nanoplc-sim"), "run", self.table, "--realtime", "--mactalk", self.gateway)
         self.launch(program("macsim"), "--mactalk", self.motor)
         self.launch(program("midisim"), "--model", "MAC34-1", "--v24", self.module)
-
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-        return self.path(name)
 
     def readers(self):
         """Who reads a file: what it wants, and the command."""
@@ -81,7 +76,7 @@ class WrongFiles(program_case.ProgramCase):
         yield "nanoplc table", "bin", lambda file: [program("nanoplc"), "check-config", self.with_table(file)]
 
     def with_table(self, table):
-        return self.write("with_table.toml", f'[[axis]]\nname = "x"\ntable = "{table}"\n[axis.motor]\nport = "{self.line}"\n')
+        return self.put("with_table.toml", f'[[axis]]\nname = "x"\ntable = "{table}"\n[axis.motor]\nport = "{self.line}"\n')
 
     def wrong(self):
         """What a file may be instead; by extension the right ones of all kinds, which are wrong for all others."""
@@ -89,20 +84,20 @@ class WrongFiles(program_case.ProgramCase):
         os.mkfifo(self.path("pipe"))
         yield "a folder", self.path("folder")
         yield "none", self.path("none")
-        yield "empty", self.write("empty", "")
+        yield "empty", self.put("empty", "")
         yield "a pipe without a writer", self.path("pipe")
         yield "no end", "/dev/zero"
         with open(self.path("huge"), "wb") as file:
             file.truncate(10_000_000_000)
         yield "10 GB", self.path("huge")
-        yield "garbage", self.write("garbage", random.Random(1).randbytes(20_000))
-        yield "lines of garbage", self.write("lines", "".join(f"{chr(33 + i % 90)};{i} \u00fc\n" for i in range(2000)))
+        yield "garbage", self.put("garbage", random.Random(1).randbytes(20_000))
+        yield "lines of garbage", self.put("lines", "".join(f"{chr(33 + i % 90)};{i} \u00fc\n" for i in range(2000)))
         with open(SEQUENCE, "rb") as file:
-            self.write("right.seq", file.read())
-        self.write("right.stimulus", "dt_ms,inputs,inpos,error\n10,0,0,0\n")
-        self.write("right.csv", "time_s,P_IST [counts]\n0,1\n1,2\n")
-        self.write("right.toml", '[service]\nstate_directory = "/none"\n')
-        self.write("right.flash", "# parameter flash of a virtual MAC140\n65 = 5\n")
+            self.put("right.seq", file.read())
+        self.put("right.stimulus", "dt_ms,inputs,inpos,error\n10,0,0,0\n")
+        self.put("right.csv", "time_s,P_IST [counts]\n0,1\n1,2\n")
+        self.put("right.toml", '[service]\nstate_directory = "/none"\n')
+        self.put("right.flash", "# parameter flash of a virtual MAC140\n65 = 5\n")
         for extension in ("seq", "bin", "sym", "scn", "stimulus", "csv", "toml", "flash"):
             yield extension, self.path("right." + extension)
 

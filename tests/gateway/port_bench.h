@@ -41,10 +41,11 @@ struct PortBench {
                                       .motor_mactalk_line = wired ? &motor_line : nullptr,
                                       .shown_lines = shown_lines,
                                       .set_points = &kSetPoints};
-        controller.emplace(ports, kTables, memory, *manager, StartCause::power_up);
+        controller.emplace(ports, kTables, memory, *manager, cause);
         gateway = &controller->sequence();
         tables = &controller->tables();
         gateway->observe(&board);
+        if (keeps_mark) manager->keep_mark(cause == StartCause::watchdog);
         tables->start(board.now);
     }
 
@@ -157,6 +158,8 @@ struct PortBench {
     TableManager* tables = nullptr;
     InstantLine line;
     InstantLine motor_line;
+    StartCause cause = StartCause::power_up;  ///< of the next start()
+    bool keeps_mark = false;                  ///< that somebody has commanded run, as boards without Linux do
     bool wired = false;
     bool only_when_due = false;
 };

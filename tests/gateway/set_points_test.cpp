@@ -257,6 +257,27 @@ TEST_F(SetPointsTest, TheLogSaysWhoWhenAndWhat) {
     EXPECT_NE(base::load_u32(data.data()), 0U);
 }
 
+/// A client may read the view in parts of any length.
+TEST_F(SetPointsTest, ChangesAreOneViewOfBytes) {
+    ASSERT_TRUE(upload_and_activate(content()));
+    for (std::int32_t i = 0; i < 9; ++i) ASSERT_TRUE(change({{0, 70000 + i}, {2, 20 + i}}));
+    std::vector<std::uint8_t> bytes;
+    for (std::uint32_t at = 0; at < 16 * reg::kChangeBytes; at += reg::kSetPointDataBytes) {
+        ASSERT_TRUE(write(reg::SET_POINT_POINTER, 255U << 16 | at));
+        const auto shown = block(reg::SET_POINT_POINTER);
+        ASSERT_TRUE(shown);
+        bytes.insert(bytes.end(), shown->data.begin() + 4, shown->data.begin() + 4 + reg::kSetPointDataBytes);
+    }
+    for (std::size_t age = 0; age < 16; ++age) {
+        const std::uint8_t* one = &bytes[age * reg::kChangeBytes];
+        const auto order = static_cast<std::uint32_t>(8 - age / 2);
+        EXPECT_EQ(one[4], age % 2 == 0 ? 2 : 0) << age;
+        EXPECT_EQ(one[5], static_cast<std::uint8_t>(reg::Origin::user_port)) << age;
+        EXPECT_EQ(base::load_u32(one + 12), (age % 2 == 0 ? 20 : 70000) + order) << age;
+    }
+    for (std::size_t i = 16 * reg::kChangeBytes; i < bytes.size(); ++i) EXPECT_EQ(bytes[i], 0) << i;
+}
+
 /// Their numbers would be those of other values.
 TEST_F(SetPointsTest, ChangesOfAnotherTableAreNotShown) {
     ASSERT_TRUE(upload_and_activate(content()));

@@ -184,6 +184,27 @@ TEST(Why, TheGatewayIsToldBeforeThePassiveMotor) {
     EXPECT_NE(why(condition).front().remedy.find("First `nanoctl stop`"), std::string::npos);
 }
 
+/// In a fault step the sequence has sent STOP, and somebody must acknowledge: no write to the motor helps.
+TEST(Why, ASequenceThatStoppedTheMotorIsNotOverruled) {
+    namespace gw = registers::gateway;
+    Bench bench;
+    mode(bench, 1);
+    bench.put("V_SOLL", 0);
+    bench.run(100ms);
+    Condition condition = read_condition(bench.motor, false);
+    const auto first = [&](gw::RunState state, std::uint32_t more = gw::kLinkDelivers) {
+        condition.gateway =
+            GatewayState{.status = static_cast<std::uint32_t>(state) | more, .safe_reason = 2};
+        return why(condition).front();
+    };
+    EXPECT_EQ(first(gw::RunState::running).code, "velocity_zero");
+    EXPECT_EQ(first(gw::RunState::running).remedy.find("macreg"), std::string::npos);
+    EXPECT_NE(first(gw::RunState::running).remedy.find("what it waits for"), std::string::npos);
+    EXPECT_EQ(first(gw::RunState::stopped, gw::kLinkDelivers | gw::kSafe).remedy, "`nanoctl run` starts it.");
+    condition.gateway.reset();
+    EXPECT_NE(why(condition).front().remedy.find("`macreg set V_SOLL 500rpm`"), std::string::npos);
+}
+
 TEST(Why, AMotorThatTurnsIsNotAccused) {
     for (const Model model : {Model::mac140, Model::mac800}) {
         const auto findings = of_a_motor_that_turns(model);

@@ -38,6 +38,18 @@ class Case(image_case.ImageCase):
 
 
 class Image(Case):
+    def test_a_new_board_waits_for_the_first_run(self):
+        self.ctl("upload", self.table)
+        for _ in range(2):
+            self.ctl("reset")
+            status = until(lambda: self.ctl("status"), lambda status: status["link"] == "up")
+            self.assertEqual((status["state"], status["waits_for_first_run"]), ("stopped", True))
+        self.ctl("run")
+        self.shows(IDLING)
+        self.board.cut_power()
+        self.board.start()
+        self.shows(IDLING)
+
     def test_a_table_is_uploaded_and_runs_and_outlives_reset_and_power_cut(self):
         sent = self.upload_and_run()
         self.ctl("stop")

@@ -55,6 +55,13 @@ class Image(unittest.TestCase):
         """In service: settings and table kept."""
         self.ctl("settings", "set", f"safe_outputs={SAFE}", "--keep")
         self.ctl("upload", self.table, "--only-store")
+        self.permit()
+
+    def permit(self):
+        """Refused in service, and for the next start."""
+        refused = self.tool("run")
+        self.assertIn("started for service", refused.stdout + refused.stderr)
+        until(lambda: self.ctl("status")["waits_for_first_run"], lambda waits: not waits)
 
     @contextlib.contextmanager
     def running_motor(self):

@@ -47,7 +47,8 @@ class Midi(image_case.ImageCase):
         return json.loads(told.stdout.splitlines()[-1])["registers"][0]["raw"]
 
     def test_a_table_is_uploaded_and_leads_the_drive_after_a_reset(self):
-        self.ctl("upload", self.compile(EXAMPLE))
+        self.ctl("upload", self.compile(EXAMPLE), "--run")
+        self.ctl("stop")
         self.ctl("reset")
         self.shows(LAMP)
         self.board.drive_input(START, 1)

@@ -234,6 +234,9 @@ class OfLm3s(Case):
         code, told = self.ctl("upload", self.path("machine.bin"), "--only-store")
         self.assertEqual(code, 0, told)
         self.cut_power()
+        self.assertTrue(self.ctl("status")[1]["waits_for_first_run"])
+        self.ctl("run")
+        self.cut_power()
         self.assertNotEqual(self.ctl("status")[1]["state"], "stopped")  # it starts by itself, and waits for the motor
         self.expect_refused("stop", firmware)
         self.assertEqual(self.board.controller.commands, 0)

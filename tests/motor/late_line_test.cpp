@@ -126,6 +126,7 @@ TEST_F(LateLine, MoreThanFortyMillisecondsIsALostLink) {
         late = characters;
         in_step();
         EXPECT_EQ(command(), Result::refused);
+        EXPECT_TRUE(link.was_too_late());
     }
 }
 
@@ -138,6 +139,13 @@ TEST_F(LateLine, ALineThatBecomesLaterThanFortyMillisecondsIsLost) {
     for (int i = 0; i < 8 && result == Result::accepted; ++i) result = command();
     EXPECT_EQ(result, Result::refused);
     EXPECT_GT(link.echo_time(), 40ms);
+    link.forget(now);
+    EXPECT_TRUE(link.was_too_late()) << "told after the loss too";
+    late = 0;
+    under_way.clear();
+    in_step();
+    EXPECT_EQ(command(), Result::accepted);
+    EXPECT_FALSE(link.was_too_late());
 }
 
 TEST_F(LateLine, AFlexMessageIsSentOnceHoweverLateUpToFortyMilliseconds) {

@@ -349,7 +349,7 @@ TEST_P(MidiMotorTest, LostInMidMove) {
     bench.drive.cut(false);
     ASSERT_TRUE(bench.until([&] { return driver.link() == Link::unacknowledged; }, 1s));
     ASSERT_TRUE(bench.until([&] { return driver.settled(); }, 1s));
-    EXPECT_EQ(bench.drive.module().actions().back().number, midi::STOP);
+    EXPECT_EQ(bench.drive.module().actions().back().number, midi::EMERGENCY_STOP);
     EXPECT_TRUE(driver.error());
     bench.pass(1s);
     EXPECT_TRUE(driver.error());

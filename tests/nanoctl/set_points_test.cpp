@@ -64,6 +64,25 @@ TEST(NanoctlSetPoints, ChangesAreToldWithTheirValues) {
     EXPECT_EQ(set_points::changes_text(known.changes, known.record, when + 1), "");
 }
 
+TEST(NanoctlSetPoints, TheLastSixteenChangesAreTold) {
+    SetPointClient bench;
+    for (std::int32_t i = 0; i < 9; ++i) {
+        bench.ask(SetPointRequest::change, {{0, i}, {2, 20 + i}});
+        bench.master.pause(base::Milliseconds(100));
+    }
+    const KnownChanges known = read_changes(bench.client);
+    ASSERT_EQ(known.changes.size(), 16U);
+    const auto text = [&](std::size_t index) {
+        return set_points::changes_text(known.changes, known.record, known.changes[index].milliseconds);
+    };
+    EXPECT_EQ(text(15), "Length 7 counts to 8 counts, Dwell 27 ms to 28 ms");
+    EXPECT_EQ(text(3), text(2));
+    EXPECT_EQ(text(2), "Length 1 counts to 2 counts, Dwell 21 ms to 22 ms");
+    EXPECT_EQ(
+        text(0),
+        "Length 0 counts to 1 counts, Dwell 20 ms to 21 ms, and perhaps values that are not kept any more");
+}
+
 TEST(NanoctlSetPoints, ARefusalNamesTheValueAndItsLimits) {
     SetPointClient bench;
     try {

@@ -20,12 +20,14 @@ class Courses : public test::Cli {
         write("p.seq", whole_program(program));
         exit_code_ = run("verify --json p.seq");
         std::set<std::string> codes;
-        const Json document = Json::parse(read("out"));
-        for (const Json& result : document["results"]) {
+        for (const Json& result : results()) {
             if (result["verdict"] != "proved") codes.insert(result["code"]);
         }
         return codes;
     }
+
+    /// Of what `seqc verify --json` has printed.
+    Json results() const { return Json::parse(read("out"))["results"]; }
 
     int exit_code_ = 0;
 };
@@ -62,7 +64,7 @@ TEST_F(Courses, AForgottenPresetIsFoundBehindATimer) {
                        "STEP Fault: OWN ERROR; OUT OUT3; ENTRY STOP; IF ANY ERROR AND IN1 THEN RESET_ERROR; "
                        "NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n"),
               std::set<std::string>{"V007"});
-    for (const Json& result : Json::parse(read("out"))["results"]) {
+    for (const Json& result : results()) {
         EXPECT_NE(result["verdict"], "undecided");
         if (result.value("code", "") != "V007") continue;
         unsigned ms = 0;
@@ -82,7 +84,7 @@ TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     run("verify p.seq");
     EXPECT_NE(read("out").find("but it says nothing: OUT0 AND OUT1 never holds"), std::string::npos);
     run("verify --json p.seq");
-    for (const Json& result : Json::parse(read("out"))["results"]) {
+    for (const Json& result : results()) {
         EXPECT_EQ(result.value("vacuous", false), result["name"] == "Nothing") << result["name"];
     }
 }
@@ -96,7 +98,7 @@ TEST_F(Courses, JsonHasTheOrdersOfACourse) {
           "STEP B: OWN ERROR; OUT OUT1; IF NOT IN0 THEN NEXT := A; END_IF END_STEP\n"
           "PROPERTY Dark: NEVER OUT1;\nEND_PROGRAM\n");
     run("verify --json p.seq");
-    for (const Json& result : Json::parse(read("out"))["results"]) {
+    for (const Json& result : results()) {
         if (result["name"] != "Dark") continue;
         const Json& course = result["course"];
         EXPECT_EQ(course.front()["orders"], (Json{"Near := 2 rev", "Fast := 100 rpm", "INIT(Fast)"}));

@@ -46,6 +46,45 @@ TEST(TableDiff, TheSameBytes) {
     EXPECT_EQ(changes_text({}), "the same bytes\n");
 }
 
+const std::vector<std::pair<std::string, std::string>> kWithSetPoint = {
+    {"VAR_MOTOR Fast AT V1 := 1500 rpm; END_VAR",
+     "SET_POINT Fast AT V1 := 1500 rpm RANGE 500 .. 2500 rpm STEP 100 rpm;"}};
+
+TEST(TableDiff, StepsThatTakeSetPoints) {
+    auto taking = kWithSetPoint;
+    taking.emplace_back("STEP Hold:", "STEP Hold: TAKES SET_POINTS;");
+    const TableDiff taken_out = diff(machine(taking), machine(kWithSetPoint));
+    EXPECT_TRUE(taken_out.same_bytes);
+    EXPECT_FALSE(taken_out.same_behaviour());
+    EXPECT_EQ(text_of(taken_out), "the same bytes\nHold: takes set-points no more\n");
+    const TableDiff added = diff(machine(kWithSetPoint), machine(taking));
+    EXPECT_FALSE(added.same_behaviour());
+    EXPECT_EQ(text_of(added), "the same bytes\nHold: takes set-points now\n");
+    const auto json = nlohmann::json::parse(json_of(taken_out));
+    EXPECT_FALSE(json.at("same_behaviour").get<bool>());
+    EXPECT_EQ(json.at("take_set_points_no_more"), (std::vector<std::string>{"Hold"}));
+    EXPECT_TRUE(json.at("take_set_points_now").empty());
+}
+
+/// No byte of the table shows them.
+TEST(TableDiff, RangesStepsAndNamesOfSetPoints) {
+    const std::string before = machine(kWithSetPoint);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        auto changes = kWithSetPoint;
+        changes.emplace_back(from, to);
+        const TableDiff result = diff(before, machine(changes));
+        EXPECT_TRUE(result.same_bytes) << to;
+        EXPECT_FALSE(result.same_behaviour()) << to;
+        return text_of(result);
+    };
+    EXPECT_EQ(changed("RANGE 500 ..", "RANGE 700 .."),
+              "the same bytes\nset-point Fast: 1500 rpm, 500 rpm to 2500 rpm in steps of 100 rpm -> 1500 "
+              "rpm, 700 rpm "
+              "to 2500 rpm in steps of 100 rpm\n");
+    EXPECT_NE(changed(" STEP 100 rpm", "").find("set-point Fast: "), std::string::npos);
+    EXPECT_NE(changed(" STEP 100 rpm", " STEP 50 rpm").find("in steps of 50 rpm"), std::string::npos);
+}
+
 // Travel's first two terms exclude each other (Guard, NOT Guard): their order means nothing.
 TEST(TableDiff, OtherBytesThatDoTheSame) {
     const Compilation before = test::compiled(machine());

@@ -50,6 +50,12 @@ TEST_F(Explain, AnUnknownCodeIsOneLineWithTheNearest) {
               "seqc: there is no code 'e015'; near it are E014, E013 and E012 (seqc explain lists all)\n");
     EXPECT_EQ(run("explain nonsense"), 2);
     EXPECT_EQ(read("err"), "seqc: there is no code 'nonsense' (seqc explain lists all)\n");
+    EXPECT_EQ(run("explain withni"), 2);
+    EXPECT_EQ(read("err"),
+              "seqc: there is no code 'withni'; did you mean 'WITHIN'? (seqc explain lists all)\n");
+    EXPECT_EQ(run("explain follows"), 2);
+    EXPECT_NE(read("err").find("a word of scenarios, which host-sim/scenario/README.md explains"),
+              std::string::npos);
 }
 
 TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {

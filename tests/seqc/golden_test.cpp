@@ -20,7 +20,7 @@ using Golden = test::Cli;
 std::map<fs::path, std::vector<test::Case>> golden_files() {
     std::map<fs::path, std::vector<test::Case>> files;
     for (const auto& entry : fs::directory_iterator(SEQC_GOLDEN))
-        files[entry.path()] = test::read_cases(entry.path());
+        if (entry.path().extension() == ".cases") files[entry.path()] = test::read_cases(entry.path());
     return files;
 }
 

@@ -112,6 +112,25 @@ TEST(GraphModel, ATableHasTheNamesAndUnitsOfItsSymbols) {
     EXPECT_EQ(model.notes[1].where, "in every other step");
 }
 
+TEST(GraphModel, SetPointsHaveTheirRangesAndTheStepsThatTakeThem) {
+    const Compilation program = test::compiled(
+        "PROGRAM P MOTOR MAC140; SET_POINT Speed AT V1 := 1000 rpm RANGE 500 .. 2500 rpm STEP 100 rpm; "
+        "ON ERROR NEXT := Fault; STEP Idle: TAKES SET_POINTS; IF IN0 THEN INIT(Speed); NEXT := Work; END_IF "
+        "END_STEP "
+        "STEP Work: IF IN1 THEN NEXT := Idle; END_IF END_STEP "
+        "STEP Fault: OWN ERROR; IF ANY ERROR AND IN2 THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP "
+        "END_PROGRAM");
+    const GraphModel model = graph_model_of(program.table, &program.symbols, "p.seq");
+    EXPECT_EQ(
+        model.set_points,
+        (std::vector<std::string>{"Set-point Speed: 1000 rpm, 500 rpm to 2500 rpm in steps of 100 rpm"}));
+    for (const GraphModel::Box& box : model.boxes) {
+        const bool takes =
+            std::find(box.outputs.begin(), box.outputs.end(), "TAKES SET_POINTS") != box.outputs.end();
+        EXPECT_EQ(takes, box.name == "Idle") << box.name;
+    }
+}
+
 TEST(GraphModel, ABareTableNamesStepsByRanges) {
     const Compilation line = test::compiled(kLine);
     const GraphModel model = graph_model_of(line.table, nullptr, "file");

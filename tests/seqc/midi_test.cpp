@@ -46,6 +46,35 @@ TEST(MidiPrograms, TheTableIsThatOfAMac140) {
     EXPECT_FALSE(jvl.symbols.drive);
 }
 
+/// The recipe "Indexing with a remainder" with a drive whose gateway adds distances up in counts: 18 stations
+/// of 28,672 counts are 17 of 1593 and one of 1591.
+TEST(MidiPrograms, AnIndexerWithARemainderHasNoWarning) {
+    const auto indexer = [](const std::string& last) {
+        return "PROGRAM P\nMOTOR MAC34;\nSCALE 7 rev = 360 deg;\nCONST Tubes := 18;\n"
+               "VAR_MOTOR Pitch AT P1 := 360 deg / Tubes; Last AT P2 := " +
+               last +
+               "; Fast AT V1 := 600 rpm; Soft AT A1 := 4000 rpm/s; Window AT INPOSWIN := 6; END_VAR\n"
+               "ON ERROR NEXT := Fault;\n"
+               "POWER_UP INIT(Fast, Soft); CLEAR_P_IST; CLEAR_P_SOLL; POSITIONS_RELATIVE_P_SOLL; "
+               "COUNTER := Tubes - 1; NEXT := Ready; END_POWER_UP\n"
+               "STEP Ready: IF R_TRIG(IN0) THEN NEXT := Choose; END_IF END_STEP\n"
+               "STEP Choose: IF COUNTER.Q THEN NEXT := Closing; ELSE NEXT := One; END_IF END_STEP\n"
+               "STEP One: ENTRY POSITION(Pitch); ENTRY COUNT_DOWN; IF INPOS WITHIN T#2s THEN NEXT := Ready; "
+               "ELSE "
+               "NEXT := Fault; END_IF END_STEP\n"
+               "STEP Closing: ENTRY POSITION(Last); ENTRY COUNTER := Tubes - 1; IF INPOS WITHIN T#2s THEN "
+               "NEXT := "
+               "Ready; ELSE NEXT := Fault; END_IF END_STEP\n"
+               "STEP Fault: OWN ERROR; ENTRY STOP; IF ANY ERROR AND R_TRIG(IN1) THEN RESET_ERROR; NEXT := "
+               "POWER_UP; "
+               "END_IF END_STEP\nEND_PROGRAM\n";
+    };
+    const std::string good = indexer("360 deg - (Tubes - 1) * Pitch");
+    const Compilation result = compile(good);
+    EXPECT_TRUE(result.ok && result.diagnostics.empty()) << test::shown(result, good);
+    EXPECT_TRUE(says(indexer("360 deg / Tubes"), "W030"));
+}
+
 TEST(MidiPrograms, TheListingHasTheDrivesOwnSteps) {
     const std::string text = lines_of(program("MAC34", kValues));
     EXPECT_NE(text.find("60 mm is 49152, on a MAC34 120000 increments (60 mm, +0.000 %)"), std::string::npos)

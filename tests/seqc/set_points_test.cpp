@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "seqc/decompile.h"
 #include "seqc/symbol_file.h"
@@ -191,6 +193,67 @@ TEST(SetPointValues, AreReadInTheirUnit) {
     EXPECT_NE(set_points::read_value(length, "").error, "");
     EXPECT_EQ(set_points::read_value(point(compilation, "Dwell"), "1.5 s").value, 1500);
     EXPECT_EQ(set_points::text_of(length, 10076), "12.3 mm");
+}
+
+/// One SET_POINT on V1, which goes in steps of 0.477 rpm.
+SetPoint speed(const std::string& range) {
+    const Compilation compilation =
+        good(machine("SET_POINT Speed AT V1 := " + range + ";\n",
+                     "STEP S: IF IN0 THEN INIT(Speed); NEXT := T; END_IF END_STEP\n"
+                     "STEP T: TAKES SET_POINTS; IF IN1 THEN NEXT := S; END_IF END_STEP\n"));
+    const auto bytes = set_points::encode(compilation.symbols.set_points);
+    const auto record = set_points::decode(bytes, compilation.table);
+    EXPECT_TRUE(record && record->values == compilation.symbols.set_points.values);
+    return point(compilation, "Speed");
+}
+
+/// 2.097152 steps are 1 rpm on a MAC140 (001 §3.2.5): 1000 rpm become 2097, 999.93 rpm.
+TEST(SetPointValues, EachWrittenValueOfTheGridIsTakenAndShown) {
+    for (const char* range :
+         {"1000 rpm RANGE 1000 .. 2500 rpm STEP 100 rpm", "1000 rpm RANGE 1000 .. 2500 rpm STEP 100"}) {
+        const SetPoint point = speed(range);
+        EXPECT_EQ(set_points::range_text(point), "1000 rpm to 2500 rpm in steps of 100 rpm");
+        for (int rpm = 1000; rpm <= 2500; rpm += 100) {
+            const set_points::Reading read = set_points::read_value(point, std::to_string(rpm));
+            EXPECT_EQ(read.error, "") << rpm;
+            EXPECT_EQ(read.value, std::lround(rpm * 2.097152));
+            EXPECT_EQ(set_points::text_of(point, read.value), std::to_string(rpm) + " rpm");
+            EXPECT_EQ(set_points::shown_value(point, read.value), rpm);
+            EXPECT_TRUE(set_points::is_on_grid(point, read.value));
+            EXPECT_FALSE(set_points::is_on_grid(point, read.value + 1));
+        }
+        EXPECT_EQ(set_points::read_value(point, "1499.5").error,
+                  "1499.5 is between two steps, 1400 or 1500; Speed takes 1000 rpm to 2500 rpm in steps of "
+                  "100 rpm");
+    }
+}
+
+/// 10.07 rpm become 21 steps, which are 10.01 rpm: the shortest number for them is 10.
+TEST(SetPointValues, TheGridBeginsAtTheLowerEndAsWritten) {
+    const SetPoint point = speed("60.07 rpm RANGE 10.07 .. 110.07 rpm STEP 0.25 rpm");
+    for (int i = 0; i <= 400; ++i) {
+        const double rpm = 10.07 + i * 0.25;
+        const set_points::Reading read = set_points::read_value(point, fmt::format("{:.2f} rpm", rpm));
+        EXPECT_EQ(read.error, "") << rpm;
+        EXPECT_EQ(read.value, std::lround(rpm * 2.097152));
+    }
+    EXPECT_EQ(set_points::text_of(point, point.lowest), "10.07 rpm");
+    EXPECT_EQ(set_points::text_of(point, point.initial), "60.07 rpm");
+    EXPECT_EQ(set_points::text_of(point, point.highest), "110.07 rpm");
+    EXPECT_EQ(set_points::decimals_of(point), 2U);
+}
+
+TEST(SetPointValues, AnEndBetweenTwoStepsIsNotOnTheGrid) {
+    const SetPoint point = speed("1000 rpm RANGE 1000 .. 2550 rpm STEP 100 rpm");
+    EXPECT_EQ(set_points::read_value(point, "2550").error,
+              "2550 is behind the last step, 2500; Speed takes 1000 rpm to 2550 rpm in steps of 100 rpm");
+    EXPECT_EQ(set_points::read_value(point, "2500").error, "");
+}
+
+TEST(SetPointValues, ThousandsAreShownWithoutAnExponent) {
+    const SetPoint point = speed("2000 rpm RANGE 1000 .. 3000 rpm");
+    EXPECT_EQ(set_points::range_text(point), "1000 rpm to 3000 rpm");
+    EXPECT_EQ(set_points::text_of(point, point.initial), "2000 rpm");
 }
 
 /// What is printed is read as the same value.

@@ -66,6 +66,21 @@ struct GearBench : MotorBench {
         set(15, 2);
         set(MODE_REG, mode);
     }
+
+    /// Runs so many samples, and `check` after each.
+    void turn(int count, const auto& check) {
+        for (int i = 0; i < count; ++i) {
+            samples(1);
+            pulses += reg(kVExt);
+            check();
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    }
+    void turn(int count) {
+        turn(count, [] {});
+    }
+
+    std::int64_t pulses = 0;  ///< that came
 };
 
 // 100 x 5 / 2 = 250 counts/sample. What came is followed to the count once the pulses end: over 2000 pulses
@@ -73,21 +88,13 @@ struct GearBench : MotorBench {
 TEST(Gear, PositionModeFollowsAndStopsWithoutOvershoot) {
     GearBench b(3);
     b.motor.terminals().set_pulse_rate(77'000);
-    std::int64_t pulses = 0;
-    for (int i = 0; i < 300; ++i) {
-        b.samples(1);
-        pulses += b.reg(kVExt);
-    }
+    b.turn(300);
     EXPECT_NEAR(b.motor.v_ist(), 250, 2);
     EXPECT_FALSE(b.motor.in_position()) << "it is v^2 / 2a behind";
     b.motor.terminals().set_pulse_rate(0);
-    for (int i = 0; i < 400; ++i) {
-        b.samples(1);
-        pulses += b.reg(kVExt);
-        ASSERT_LE(b.reg(P_FNC), pulses * 40) << "passed: 16 x 5 / 2 for each pulse";
-    }
-    EXPECT_EQ(b.reg(P_FNC), pulses * 40);
-    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(pulses) * 2.5, 1);
+    b.turn(400, [&] { ASSERT_LE(b.reg(P_FNC), b.pulses * 40) << "passed: 16 x 5 / 2 for each pulse"; });
+    EXPECT_EQ(b.reg(P_FNC), b.pulses * 40);
+    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(b.pulses) * 2.5, 1);
     EXPECT_EQ(b.reg(kGFnc), 0);
     EXPECT_TRUE(b.motor.in_position());
 }
@@ -96,23 +103,15 @@ TEST(Gear, PositionModeFollowsAndStopsWithoutOvershoot) {
 TEST(Gear, FollowModeHasNoLagAndOvershoots) {
     GearBench b(24);
     b.motor.terminals().set_pulse_rate(77'000);
-    std::int64_t pulses = 0;
-    for (int i = 0; i < 1500; ++i) {
-        b.samples(1);
-        pulses += b.reg(kVExt);
-    }
+    b.turn(1500);
     EXPECT_NEAR(b.motor.v_ist(), 250, 2);
     EXPECT_EQ(b.reg(kGFnc), 0);
     EXPECT_TRUE(b.motor.in_position());
     b.motor.terminals().set_pulse_rate(0);
     std::int64_t farthest = 0;
-    for (int i = 0; i < 1500; ++i) {
-        b.samples(1);
-        pulses += b.reg(kVExt);
-        farthest = std::max<std::int64_t>(farthest, b.motor.p_ist());
-    }
-    EXPECT_GT(farthest, pulses * 5 / 2 + 100);
-    EXPECT_EQ(b.reg(P_FNC), pulses * 40);
+    b.turn(1500, [&] { farthest = std::max<std::int64_t>(farthest, b.motor.p_ist()); });
+    EXPECT_GT(farthest, b.pulses * 5 / 2 + 100);
+    EXPECT_EQ(b.reg(P_FNC), b.pulses * 40);
 }
 
 TEST(Gear, TheSignOfGearf1TurnsTheDirection) {
@@ -128,16 +127,13 @@ TEST(Gear, WhatTheLimitTookIsMadeUpFor) {
     GearBench b(3);
     b.set(V_SOLL, 1600);
     b.motor.terminals().set_pulse_rate(77'000);
-    std::int64_t pulses = 0;
-    for (int i = 0; i < 1500; ++i) {
-        if (i == 300) b.motor.terminals().set_pulse_rate(0);
-        b.samples(1);
-        pulses += b.reg(kVExt);
-        ASSERT_LE(b.reg(166) / 0x10000, 1600);
-    }
-    EXPECT_EQ(b.reg(P_FNC), pulses * 40);
+    const auto check = [&] { ASSERT_LE(b.reg(166) / 0x10000, 1600); };
+    b.turn(300, check);
+    b.motor.terminals().set_pulse_rate(0);
+    b.turn(1200, check);
+    EXPECT_EQ(b.reg(P_FNC), b.pulses * 40);
     b.settle();
-    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(pulses) * 2.5, 1);
+    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(b.pulses) * 2.5, 1);
 }
 
 // 001 §4.1.12: an overload corrects the profile within T_SOLL; the follow error is made up for.
@@ -145,17 +141,16 @@ TEST(Gear, AnOverloadIsCorrectedAndMadeUpFor) {
     GearBench b(3);
     b.set(T_SOLL, 100);
     b.motor.terminals().set_pulse_rate(7'700);
-    std::int64_t pulses = 0;
-    for (int i = 0; i < 4000; ++i) {
-        if (i == 200) b.motor.plant().load().torque = -200;
-        if (i == 225) b.motor.plant().load().torque = 0;
-        if (i == 600) b.motor.terminals().set_pulse_rate(0);
-        b.samples(1);
-        pulses += b.reg(kVExt);
-        ASSERT_LE(std::abs(b.reg(169)), 100);
-    }
-    EXPECT_EQ(b.reg(P_FNC), pulses * 40);
-    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(pulses) * 2.5, 1);
+    const auto check = [&] { ASSERT_LE(std::abs(b.reg(169)), 100); };
+    b.turn(200, check);
+    b.motor.plant().load().torque = -200;
+    b.turn(25, check);
+    b.motor.plant().load().torque = 0;
+    b.turn(375, check);
+    b.motor.terminals().set_pulse_rate(0);
+    b.turn(3400, check);
+    EXPECT_EQ(b.reg(P_FNC), b.pulses * 40);
+    EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(b.pulses) * 2.5, 1);
 }
 
 // When the overload is over the lag is v^2 / 2a as before: 25 counts/sample, 100 / 16 counts/sample^2: 50

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
+#include <utility>
 
 #include "motor_bench.h"
 
@@ -47,29 +48,40 @@ TEST(Mode, StartsInStartmode) {
     EXPECT_TRUE(b.motor.is_mode(MotorMode::position));
 }
 
-// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking, a
-// quarter of a count a sample, passes every count, or all but one that the encoder's step hides.
-TEST(Mode, StopEndsBelow300Rpm) {
-    MotorBench b;
-    run_at(b, 1600);
+// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not; on MAC800 51.9 (004:
+// 0.17316 counts/sample per rpm). Slow braking, a quarter of a count a sample, passes every count, or all but
+// one that the encoder's step hides.
+struct Stop {
+    const char* name;
+    registers::Model model;
+    std::int32_t v_soll;
+    std::int32_t last_below;
+    double slowest;
+    double tolerance;
+};
+
+struct StopEnds : testing::TestWithParam<Stop> {};
+
+TEST_P(StopEnds, Below300Rpm) {
+    const Stop& stop = GetParam();
+    MotorBench b(stop.model);
+    run_at(b, stop.v_soll);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.samples(1);
     EXPECT_EQ(b.reg(MODE_REG), 11);
-    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
+    EXPECT_NEAR(slowest_in_stop(b, stop.last_below), stop.slowest, stop.tolerance);
     EXPECT_EQ(b.reg(FLWERR), 0);
     b.settle();
     EXPECT_EQ(b.motor.v_ist(), 0);
 }
 
-TEST(Mode, StopEndsBelow300RpmBackwards) {
-    MotorBench b;
-    run_at(b, -1600);
-    b.set(A_SOLL, 4);
-    b.set(MODE_REG, 0);
-    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
-}
+INSTANTIATE_TEST_SUITE_P(Mode, StopEnds,
+                         testing::Values(Stop{"Forwards", registers::Model::mac140, 1600, 39, 40.5, 0.5},
+                                         Stop{"Backwards", registers::Model::mac140, -1600, 39, 40.5, 0.5},
+                                         Stop{"OnMac800", registers::Model::mac800, 1600, 51, 52, 1}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 // The two velocities themselves, about 640 / 16 = 40, as the encoder reads them in the first sample of STOP.
 TEST(Mode, StopGoesOnAt40AndEndsAt39) {
@@ -87,15 +99,6 @@ TEST(Mode, StopGoesOnAt40AndEndsAt39) {
     ASSERT_FALSE(went_on.empty() || ended.empty());
     EXPECT_EQ(*went_on.begin(), 40);
     EXPECT_EQ(*ended.rbegin(), 39);
-}
-
-// 004: 0.17316 counts/sample per rpm, so 300 rpm are 51.9.
-TEST(Mode, StopEndsAt51OnMac800) {
-    MotorBench b(registers::Model::mac800);
-    run_at(b, 1600);
-    b.set(A_SOLL, 4);
-    b.set(MODE_REG, 0);
-    EXPECT_NEAR(slowest_in_stop(b, 51), 52, 1);
 }
 
 // R: A_SOLL = 0 still stops.
@@ -201,27 +204,19 @@ TEST(Mode, PositionLimits) {
 }
 
 TEST(Mode, EmergencyStopUsesItsOwnAcceleration) {
-    MotorBench b;
-    b.set(ACC_EMERG, 400);
-    b.set(MAX_P_IST, 15'000);
-    b.set(A_SOLL, 10);
-    b.set(V_SOLL, 1600);
-    b.set(MODE_REG, 1);
-    while (b.reg(MODE_REG) == 1) b.samples(1);
-    const std::int32_t before = b.reg(FNC_OUT);
-    b.samples(1);
-    EXPECT_EQ(b.reg(FNC_OUT), before - 400);
-
-    MotorBench c;
-    c.set(ACC_EMERG, 0);
-    c.set(MAX_P_IST, 15'000);
-    c.set(A_SOLL, 10);
-    c.set(V_SOLL, 1600);
-    c.set(MODE_REG, 1);
-    while (c.reg(MODE_REG) == 1) c.samples(1);
-    const std::int32_t slow = c.reg(FNC_OUT);
-    c.samples(1);
-    EXPECT_EQ(c.reg(FNC_OUT), slow - 10);
+    for (const auto& [acc_emerg, taken] : {std::pair{400, 400}, {0, 10}}) {
+        SCOPED_TRACE(acc_emerg);
+        MotorBench b;
+        b.set(ACC_EMERG, acc_emerg);
+        b.set(MAX_P_IST, 15'000);
+        b.set(A_SOLL, 10);
+        b.set(V_SOLL, 1600);
+        b.set(MODE_REG, 1);
+        while (b.reg(MODE_REG) == 1) b.samples(1);
+        const std::int32_t before = b.reg(FNC_OUT);
+        b.samples(1);
+        EXPECT_EQ(b.reg(FNC_OUT), before - taken);
+    }
 }
 
 // The manual gives nothing but the purpose (001 §4.4.24).

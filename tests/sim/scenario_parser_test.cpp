@@ -294,6 +294,88 @@ TEST(ScenarioParser, ExpectationsKeepTheirText) {
     EXPECT_EQ(parsed.scenario.expectations[1].text, "never Grip");
 }
 
+/// `line:column: message` of each.
+std::string all_mistakes(const std::string& text, const Names& names) {
+    std::string all;
+    for (const Mistake& found : parse_scenario(text, "x.scn", names).mistakes)
+        all += found.place() + ": " + found.message + "\n";
+    return all;
+}
+
+TEST(ScenarioParser, WhatIsBehindTheEndNeverHappens) {
+    const Names names = program_names();
+    EXPECT_EQ(all_mistakes("Guard := 1\nat 5 s Start := 0\nnever Grip\nend at 2 s", names),
+              "2:1: this happens at 5 s, but the scenario ends at 2 s; move one of the two\n");
+    EXPECT_EQ(all_mistakes("at 1 s Start := 1, after 3 s Start := 0\nend at 2 s", names),
+              "1:1: this happens at 4 s, but the scenario ends at 2 s; move one of the two\n");
+    EXPECT_EQ(all_mistakes("end at 2 s\nevery 3 s toggle IN0\nwhen Grip from 4 s Start := 1", names),
+              "2:1: this happens at 3 s, but the scenario ends at 2 s; move one of the two\n"
+              "3:1: this happens at 4 s, but the scenario ends at 2 s; move one of the two\n");
+    EXPECT_EQ(all_mistakes("at 1 s Start := 1 for 5 s\nat 1 s pulse Guard 9 s\nat 2 s Guard := 1\n"
+                           "IN2 appears for 3 s at 1 s\nend at 2 s",
+                           names),
+              "");
+    EXPECT_EQ(all_mistakes("at 5 s Start := 0\nend when Grip", names), "");
+}
+
+TEST(ScenarioParser, OrdersAreThoseThatCanBe) {
+    Names names = program_names();
+    names.registers = {{"Long", "P3"}, {"Fast", "V1"}};
+    const auto order = [&](const std::string& text) {
+        const auto parsed = parse_scenario("never ordered \"" + text + "\"", "x.scn", names);
+        EXPECT_TRUE(parsed.mistakes.empty()) << text << ": " << parsed.mistakes.front().message;
+        return parsed.mistakes.empty() ? parsed.scenario.expectations[0].condition.parts[0].order : "";
+    };
+    EXPECT_EQ(order("POSITION(P3)"), "position(p3)");
+    EXPECT_EQ(order("Position( long )"), "position(p3)");
+    EXPECT_EQ(order("INIT(Fast)"), "init(v1)");
+    EXPECT_EQ(order("Fast := -5"), "v1:=-5");
+    EXPECT_EQ(order("Long := 40960"), "p3:=40960");
+    EXPECT_EQ(order("V1 := 3146"), "v1:=3146");
+    for (const char* word : {"STOP", "HOME", "RESET_ERROR", "USE_SET(4)", "NOP(17h)", "MODE_REG := 0"})
+        order(word);
+    const auto wrong = [&](const std::string& text) {
+        return all_mistakes("never ordered \"" + text + "\"", names);
+    };
+    EXPECT_EQ(wrong("POSITON(P3)"),
+              "1:15: \"POSITON(P3)\" can never be ordered; did you mean POSITION(P3)?\n");
+    EXPECT_EQ(wrong("POSITION(P9)"),
+              "1:15: \"POSITION(P9)\" can never be ordered; did you mean POSITION(P1)?\n");
+    EXPECT_EQ(wrong("elephant"),
+              "1:15: \"elephant\" can never be ordered; write an order as the timeline prints it, such as "
+              "POSITION(P2), RESET_ERROR or V1 := 3146\n");
+    EXPECT_EQ(wrong("INIT(V1, A1)"),
+              "1:15: each register is an order of its own; write such as ordered \"INIT(V1)\"\n");
+    EXPECT_EQ(wrong("V1 := 500 rpm"),
+              "1:15: an order has the register's own steps, as the timeline prints it, such as ordered \"V1 "
+              ":= 100\"\n");
+    EXPECT_EQ(wrong("V1 := 70000"), "1:15: 70000 is no value of v1, so this is never ordered\n");
+    EXPECT_EQ(wrong("Slow := 5"),
+              "1:15: the motor has no register \"slow\", nor has the program a name for one\n");
+}
+
+TEST(ScenarioParser, StepNumbersAreThoseOfTheTable) {
+    Names names = program_names();
+    EXPECT_EQ(all_mistakes("never step = 40", names), "") << "the table is not known";
+    names.numbers = 0b10111;
+    EXPECT_EQ(all_mistakes("never step = 40", names), "1:14: the table has no step 40; it has 0..2, 4\n");
+    EXPECT_EQ(all_mistakes("never step = 4 and step < 62", names),
+              "1:27: the table has no step 62; it has 0..2, 4\n");
+    EXPECT_EQ(all_mistakes("expect step = 2", names), "");
+}
+
+TEST(ScenarioParser, WhatNeverChangesIsAMistake) {
+    const Names names = program_names();
+    EXPECT_EQ(all_mistakes("Start follows Start", names),
+              "1:15: an input that follows itself never changes; name what it follows, such as OUT0\n");
+    EXPECT_EQ(all_mistakes("Start follows not Start after 1 s", names), "") << "a clock";
+    EXPECT_EQ(all_mistakes("Start appears for 2 s every 1 s", names),
+              "1:1: it lasts 2 s and comes again every 1 s; make it shorter than that\n");
+    EXPECT_EQ(all_mistakes("every 1 s Guard := 1, Start := 1 for 1 s", names),
+              "1:1: it lasts 1 s and comes again every 1 s; make it shorter than that\n");
+    EXPECT_EQ(all_mistakes("Start appears for 500 ms every 1 s\nevery 1 s pulse Guard 999 ms", names), "");
+}
+
 TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("at 5 IN0 := 1"),
               "\"5 IN0\" is not a time; write a number with us, ms, s or min, such as 250 ms");

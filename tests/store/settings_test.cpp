@@ -56,15 +56,19 @@ TEST(Settings, TakeTheirValuesAndNoOthers) {
         EXPECT_EQ(values.set(info.id, kNone).ok(), info.has_none || inside) << info.name;
     }
     EXPECT_EQ(SettingValues().set(static_cast<Setting>(kSettings + 1), 1).error(), base::Error::bad_setting);
-    EXPECT_EQ(SettingValues().set(Setting{0}, 1).error(), base::Error::bad_setting);
+    EXPECT_FALSE(is_setting(0)) << "that somebody has commanded run is not the user's to set";
+    EXPECT_TRUE(SettingValues().set(Setting::waits_for_run, 6).ok());
+    EXPECT_EQ(SettingValues().set(Setting::waits_for_run, 7).error(), base::Error::bad_setting);
 }
 
 TEST(Settings, OfSpeedsOnlyStandardOnes) {
     for (const Setting setting : {Setting::user_baud, Setting::motor_baud}) {
         SettingValues values;
-        for (const std::uint32_t baud : {1'201U, 14'400U, 19'201U, 100'000U})
+        for (const std::uint32_t baud :
+             {0U, 600U, 1'201U, 14'400U, 19'201U, 76'800U, 100'000U, 1'843'200U, 0xFFFF'FFFFU})
             EXPECT_EQ(values.set(setting, baud).error(), base::Error::bad_setting) << baud;
-        for (const std::uint32_t baud : {1'200U, 9'600U, 38'400U, 921'600U})
+        for (const std::uint32_t baud : {1'200U, 2'400U, 4'800U, 9'600U, 19'200U, 38'400U, 57'600U, 115'200U,
+                                         230'400U, 460'800U, 921'600U})
             EXPECT_TRUE(values.set(setting, baud).ok()) << baud;
     }
 }
@@ -73,9 +77,12 @@ TEST(Settings, AreStoredAsNumberAndFourBytes) {
     SettingValues values;
     ASSERT_TRUE(values.set(Setting::gateway_address, 5).ok());
     ASSERT_TRUE(values.set(Setting::motor_baud, 115'200).ok());  // 0001C200h
-    const auto bytes = encode(values);
-    EXPECT_EQ(Bytes(bytes.begin(), bytes.begin() + 5), (Bytes{1, 5, 0, 0, 0}));
-    EXPECT_EQ(Bytes(bytes.begin() + 10, bytes.begin() + 15), (Bytes{3, 0x00, 0xC2, 0x01, 0x00}));
+    ASSERT_TRUE(values.set(Setting::waits_for_run, 6).ok());
+    std::array<std::uint8_t, kMaxSettingsBytes> bytes{};
+    encode(values, bytes);
+    EXPECT_EQ(Bytes(bytes.begin(), bytes.begin() + 5), (Bytes{0, 6, 0, 0, 0}));
+    EXPECT_EQ(Bytes(bytes.begin() + 5, bytes.begin() + 10), (Bytes{1, 5, 0, 0, 0}));
+    EXPECT_EQ(Bytes(bytes.begin() + 15, bytes.begin() + 20), (Bytes{3, 0x00, 0xC2, 0x01, 0x00}));
     const auto back = decode_settings(bytes);
     ASSERT_TRUE(back.ok());
     EXPECT_EQ(back.value(), values);

@@ -76,17 +76,22 @@ TEST(Emit, MovesAndAssumptionsArePartOfTheModel) {
     const PropertyReading reading = read_properties(
         "ASSUME NEVER IN0 AND IN1; ASSUME moving ENDS WITHIN 20 ms; PROPERTY P: NEVER moving AND IN0;", {});
     const std::string promela = promela_of(table, reading.properties, reading.assumptions).text;
-    EXPECT_TRUE(contains(promela, "next_step = 1; motion = 1 /* to a place */; moved = 0 :: else fi;"));
+    EXPECT_TRUE(contains(promela, "next_step = 1; motion = 1; moved = 0 :: else fi;"));
     EXPECT_TRUE(contains(promela, "      !(in0 && in1);\n"));
-    EXPECT_TRUE(contains(promela, "      (motion != 1 || moved <= 20 || inpos || error);\n"));
+    EXPECT_TRUE(
+        contains(promela, "      ((motion != 1 && motion != 8) || moved <= 20 || inpos || error);\n"));
     EXPECT_TRUE(contains(promela, "/* ASSUME moving ENDS WITHIN 20 ms */"));
     const std::string clauses = smt2_of(table, reading.properties, reading.assumptions).text;
-    // Timer not running, counter 0, no input: to step 1, nothing preset, outputs 0 written, counter kept, 01.
+    // Timer not running, counter 0, no input: to step 1, nothing preset, outputs 0 written, counter kept,
+    // orders 0.
     EXPECT_TRUE(contains(
-        clauses, "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000001 #b0 #b0 #b1 #b0000 #b00 #b0 #b01))"));
-    // To a place, INPOS seen, no ERROR, nothing ordered: it stands. With ERROR instead: disturbed.
-    EXPECT_TRUE(contains(clauses, "(rule (Turn #b01 #b1 #b0 #b11 #b00))"));
-    EXPECT_TRUE(contains(clauses, "(rule (Turn #b01 #b0 #b1 #b11 #b11))"));
+        clauses, "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000001 #b0 #b0 #b1 #b0000 #b00 #b0 #b0))"));
+    // To a place, INPOS seen, no ERROR, orders 1, which are none: in its place. With ERROR instead: for an
+    // unknown time. Orders 0 begin the move anew, whatever there was.
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b1 #b0 #b1 #b0100 #b0))"));
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b0 #b1 #b1 #b0011 #b0))"));
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b0 #b0 #b1 #b0001 #b1))"));
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b1000 #b0 #b0 #b0 #b0001 #b0))"));
 }
 
 TEST(Emit, WhatIsRememberedIsChosenFirst) {
@@ -105,10 +110,10 @@ TEST(Emit, ClausesSayWhatAScanDoes) {
     const Emission clauses = smt2_of(example(), properties("PROPERTY P: NEVER ERROR;"));
     EXPECT_TRUE(
         contains(clauses.text,
-                 "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000010 #b1 #b1 #b1 #b0101 #b00 #b0 #b11))\n"));
+                 "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000010 #b1 #b1 #b1 #b0101 #b00 #b0 #b0))\n"));
     EXPECT_TRUE(
         contains(clauses.text,
-                 "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000000 #b0 #b0 #b0 #b0000 #b00 #b0 #b11))\n"));
+                 "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000000 #b0 #b0 #b0 #b0000 #b00 #b0 #b0))\n"));
     EXPECT_FALSE(contains(clauses.text, "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000010"));
     EXPECT_TRUE(contains(clauses.text, "(echo \"P\")\n(query Bad_P)\n"));
 }

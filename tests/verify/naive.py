@@ -4,7 +4,49 @@ from collections import deque
 from dataclasses import dataclass
 
 INPOS, ERROR = 0x40, 0x80
-STANDS, TO_PLACE, ENDLESS, DISTURBED = range(4)  # what was ordered of the motor; DISTURBED: to a place, and ERROR was seen
+# What was ordered of the motor. LATE: to a place, and for how long is not known, because of an ERROR or another target or speed
+# on the way; IN_PLACE: in position mode; *_0: with V_SOLL 0.
+INIT, TO_PLACE, ENDLESS, LATE, IN_PLACE, IN_PLACE_0, ON_ITS_WAY_0, ENDLESS_0, HOMING, HOMING_LATE = range(10)
+MOVING = {TO_PLACE, ENDLESS, LATE, HOMING, HOMING_LATE}
+TIMED = {TO_PLACE, HOMING}
+CLEARS = {0x62: "P_SOLL", 0x63: "P_IST", 0x64: "P_FNC"}
+
+
+def motion_after(motion, command):
+    """What one FastMAC command makes of it (001 5.2.1.4), of those that the tests' tables have."""
+    if command == 0x08:  # INIT(V1)
+        return INIT
+    if command == 0x40:  # POSITION(P1)
+        return TO_PLACE
+    if command == 0x28:  # VELOCITY(V1)
+        return ENDLESS
+    if command == 0x70:  # HOME
+        return HOMING
+    if command == 0x65:  # STOP
+        return {TO_PLACE: ON_ITS_WAY_0, LATE: ON_ITS_WAY_0, ENDLESS: ENDLESS_0, IN_PLACE: IN_PLACE_0}.get(motion, motion)
+    if command == 0x48:  # POSITION(V1): on to the target that stands, at some speed
+        return motion if motion in (TO_PLACE, IN_PLACE) else IN_PLACE if motion == IN_PLACE_0 else LATE
+    if command in (0x62, 0x64):  # another target
+        return {TO_PLACE: LATE, IN_PLACE: LATE, IN_PLACE_0: ON_ITS_WAY_0}.get(motion, motion)
+    return motion
+
+
+def motion_after_scan(motion, commands):
+    """P_SOLL, P_IST and P_FNC cleared, with nothing else between, move nothing."""
+    cleared, before = set(), motion
+    for command in commands:
+        then = motion_after(motion, command)
+        if command in CLEARS:
+            before = before if cleared else motion
+            cleared.add(command)
+            motion = before if len(cleared) == len(CLEARS) else then
+        else:
+            cleared = cleared if command & 0x80 or command in NO_MOTION else set()
+            motion = then
+    return motion
+
+
+NO_MOTION = {0x60, 0x61}  # NOP, RESET_ERROR
 
 
 def scan(table, state, image):
@@ -72,7 +114,7 @@ def holds(condition, image, state):
     if kind == "counter":
         return state[3] == 0
     if kind == "moving":
-        return state[4] != STANDS
+        return state[4] in MOVING
     if kind == "step":
         return state[0] == condition[1]
     if kind == "not":
@@ -97,7 +139,7 @@ class Naive:
         self.longest = longest
         self.scans = {}  # (image, state after) -> depth
         self.after = {}  # state before a scan -> {(image, state after)}
-        start = self.off = (0, 0, 0, 0) if move_ms is None else (0, 0, 0, 0, STANDS, 0)
+        start = self.off = (0, 0, 0, 0) if move_ms is None else (0, 0, 0, 0, INIT, 0)
         depth = {start: 0}
         queue = deque([start])
         while queue:
@@ -118,28 +160,24 @@ class Naive:
         if self.move_ms is None:
             return done
         motion, moved = state[4:]
-        if motion in (TO_PLACE, DISTURBED) and image & INPOS:
-            motion = STANDS
-        elif motion == TO_PLACE and image & ERROR:
-            motion = DISTURBED
-        for command in orders(self.table, state, image):
-            if command == 0x40:  # POSITION(P1)
-                motion, moved = TO_PLACE, 0
-            elif command == 0x28:  # VELOCITY(V1)
-                motion = ENDLESS
-            elif command == 0x65:  # STOP
-                motion = STANDS
-        return (*done, motion, moved if motion == TO_PLACE else 0)
+        if motion in (TO_PLACE, LATE, HOMING, HOMING_LATE) and image & INPOS:
+            motion = IN_PLACE
+        elif motion in TIMED and image & ERROR:
+            motion = LATE if motion == TO_PLACE else HOMING_LATE
+        commands = list(orders(self.table, state, image))
+        motion = motion_after_scan(motion, commands)
+        goes_on = motion in TIMED and motion_after_scan(INIT, commands) not in TIMED
+        return (*done, motion, moved if goes_on else 0)
 
     def possible(self, state):
         """Images with which a scan can begin there."""
-        if self.move_ms is None or state[4] != TO_PLACE or state[5] <= self.move_ms:
+        if self.move_ms is None or state[4] not in TIMED or state[5] <= self.move_ms:
             return self.images
         return [image for image in self.images if image & (INPOS | ERROR)]
 
     def elapse(self, state, ms):
         step, outputs, timer, counter, *move = state
-        if move and move[0] == TO_PLACE:
+        if move and move[0] in TIMED:
             move[1] = min(move[1] + ms, self.move_ms + 1)
         return (step, outputs, max(0, timer - ms), counter, *move)
 

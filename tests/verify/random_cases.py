@@ -23,7 +23,7 @@ def random_term(rng, steps, moves):
     preset = rng.choice([0, 0, 1, 2, 3])
     command = 0x61 if rng.random() < 0.2 else 0x80
     if moves and rng.random() < 0.4:
-        command = rng.choice([0x40, 0x40, 0x28, 0x65])  # POSITION(P1), VELOCITY(V1), STOP
+        command = rng.choice([0x40, 0x40, 0x28, 0x65, 0x08, 0x70, 0x48, 0x62, 0x63, 0x64])  # moves, ends of them, other targets
     output = rng.randrange(4) | (0x40 if rng.random() < 0.1 else 0) | (0x80 if rng.random() < 0.3 else 0)
     return bytes([state, wanted, care, next_step | (0x40 if counter_preset else 0), command, output, preset, 0])
 

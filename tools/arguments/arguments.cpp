@@ -29,7 +29,7 @@ OptionText text_of(const CLI::Option& option) {
             .has_value = option.get_items_expected_max() != 0};
 }
 
-/// An option that names a file or the like; what is left out has no name.
+/// Rejects an empty value; an option that is not wanted is left out. Positional arguments are not checked.
 CLI::Option* never_empty(CLI::Option* option) {
     if (option->get_positional()) return option;
     return option->check(CLI::Validator(
@@ -157,9 +157,9 @@ Option* Option::excludes(const std::string& other) {
 }
 
 struct App::Parts {
-    std::unique_ptr<CLI::App> own;  ///< of the program; a command's belongs to CLI11
+    std::unique_ptr<CLI::App> own;  ///< owned by the program; a command's App is owned by CLI11
     CLI::App* app;
-    bool help = false;  ///< has the command
+    bool help = false;  ///< has the command `help`
     std::vector<std::unique_ptr<Option>> options{};
     std::vector<std::unique_ptr<App>> commands{};
 };
@@ -270,7 +270,7 @@ ParseResult App::help_of(const std::vector<std::string>& commands) {
     return {};
 }
 
-/// The library says of an unknown command only that there is none.
+/// CLI11's message for an unknown command does not name the command.
 std::string App::what_is_wrong(const std::string& error) const {
     const std::vector<std::string> rest = parts_->app->remaining(true);
     const CLI::App& last = innermost(*parts_->app);

@@ -45,7 +45,8 @@ if(NOT NPLC_HOSTED)
   option(NPLC_UPDATE "Renew the firmware over the user's port, with a loader and two slots" OFF)
   add_compile_definitions(NPLC_UPDATE=$<BOOL:${NPLC_UPDATE}>)
   add_compile_definitions(NPLC_SET_POINTS=$<BOOL:${NPLC_SET_POINTS}> NPLC_RECIPES=4 NPLC_MODBUS=$<BOOL:${NPLC_MODBUS}>
-                          NPLC_LATE_LINES=0 NPLC_MODE_STOPS=$<NOT:$<BOOL:${NPLC_SET_POINTS}>>)
+                          NPLC_LATE_LINES=0 NPLC_WHOLE_MIDI_STOP=0
+                          NPLC_MODE_STOPS=$<NOT:$<BOOL:${NPLC_SET_POINTS}>>)
 endif()
 
 add_library(nplc_options INTERFACE)
@@ -58,8 +59,8 @@ if(NPLC_HOSTED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(nplc_options INTERFACE -Wno-array-bounds -Wno-free-nonheap-object -Wno-restrict
                                                 -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
-# A pipeline of three stages gains little by another order of instructions and blocks, or by jumps threaded past a test;
-# 400 bytes of flash go for it.
+# A three-stage pipeline gains little from instruction scheduling or jump threading, which would cost 400
+# bytes of flash.
 if(NOT NPLC_HOSTED)
   target_compile_options(nplc_options INTERFACE -fno-schedule-insns2 -fno-reorder-blocks -fno-move-loop-invariants
                                                 -fno-tree-dominator-opts)

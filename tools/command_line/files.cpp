@@ -9,7 +9,7 @@
 namespace nplc::command_line {
 namespace {
 
-/// Far more than a table or its symbols have.
+/// Far larger than any table or its symbols.
 constexpr std::size_t kMostBytes = 4 * 1024 * 1024;
 
 std::string content_of(const std::string& path, host::FileContent file) {

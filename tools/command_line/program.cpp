@@ -118,7 +118,7 @@ void guard(Common& common, const std::function<void()>& what) {
         what();
     });
     const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (is_written || !host::output_has_reader()) return;  // `| head -1` has seen enough
+    if (is_written || !host::output_has_reader()) return;  // `| head -1` has closed the pipe
     host::complain(common.program + ": cannot write to standard output");
     common.exit_code = kUsageOrFile;
 }

@@ -37,7 +37,7 @@ int digit(char c) {
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/// What is raw has zeros, or bytes that no text has.
+/// Raw content has zeros, or bytes that no text has.
 bool is_other_text(std::string_view content) {
     if (host::is_marked_utf16(content)) return true;
     const auto is_of_text = [](char c) {

@@ -21,17 +21,17 @@ using enum registers::Number;
 
 namespace {
 
-/// Bits that the motor clears when it has done what they ask for, or sets by itself (001 §3.2.36, 004).
+/// Bits that the motor clears when it has done what they request, or sets by itself (001 §3.2.36, 004).
 std::int64_t passing_bits(Model model, const Register& reg) {
     if (reg.number == registers::ERR_STAT) return 1 << 4 | 1 << 5 | 1 << 6;
     if (reg.number != registers::CNTRL_BITS) return 0;
     return model == Model::mac800 ? 0b100'0011 : 0b1110'0100'1100'0000;
 }
 
-/// Counts between two reads of a place that mean nothing.
+/// Counts between two reads of a position that are not a change.
 constexpr std::int64_t kNoise = 8;
 
-/// 001 §3.2.36: looked at after a reset only.
+/// 001 §3.2.36: read by the motor after a reset only.
 constexpr std::int64_t kAtResetOnly = 0b1'1111;
 
 constexpr const char* kUpset = "a wrong value may damage the motor or upset its control";
@@ -49,7 +49,7 @@ bool is_pointer(const Register& reg) {
     return reg.number >= registers::P_REG_P && reg.number <= registers::Z_REG_P;
 }
 
-/// What moves by itself may be another value a moment later.
+/// Registers that the motor updates itself: a moment later they may differ from what was written.
 bool runs_on(const Register& reg) {
     return reg.number == registers::P_IST || reg.number == registers::P_FNC ||
            reg.number == registers::FLWERR || reg.name == "REC_CNT";
@@ -63,7 +63,7 @@ bool holds_by_supply(Motor& motor) {
            (handle & mask(model, number, "UV_GO_PASSIVE")) != 0;
 }
 
-/// What keeps the motor from the mode that was asked for; empty: nothing that is known.
+/// What prevents the requested mode; empty: no known cause.
 std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
     if (now == kSafe && wanted != kSafe)
         return "the motor is in SAFE_MODE and leaves it by `macreg safe exit` only (001 §4.4.16)";
@@ -85,7 +85,7 @@ std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
     return {};
 }
 
-/// Modes that the motor leaves by itself, and may have left before it was asked (001 §4.4.9, §4.4.10,
+/// Modes that the motor leaves by itself, perhaps before they could be read back (001 §4.4.9, §4.4.10,
 /// §4.4.11, §4.4.12, §4.4.23). Empty: it was not one of them.
 std::string ended_by_itself(std::int64_t wanted, std::int64_t now) {
     if (wanted == kStop && now == kInit)

@@ -26,10 +26,10 @@ Model model_of_version(std::uint32_t version) {
     return (version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
 }
 
-/// A block that was damaged so often is read register by register: a tenth of the bytes at a time.
+/// After this many damaged replies a block is read register by register: a tenth of the bytes at a time.
 constexpr unsigned kBlockAttempts = 2;
 constexpr unsigned kGatewayAttempts = 10;
-/// A block costs as many characters on the line as five single reads.
+/// A block takes as many characters on the line as five single reads.
 constexpr std::size_t kWorthABlock = 5;
 
 /// 001 §3.2.36, §3.2.43; 004: relative positions and resynchronising add at each write.
@@ -63,7 +63,7 @@ class Finder {
             found_.units.clear();
             for (unsigned address = 1; address <= kLast; ++address) ask(static_cast<std::uint8_t>(address));
         } else if (!has(gw::kDefaultAddress)) {
-            ask(gw::kDefaultAddress);  // a gateway does not answer to 255 itself
+            ask(gw::kDefaultAddress);  // a gateway itself does not answer to 255
         }
         return found_;
     }
@@ -88,7 +88,7 @@ class Finder {
         }
     }
 
-    /// True if exactly one motor is there: what it says of itself at 255 is what it says at its own address.
+    /// True if exactly one motor is there: its values at 255 equal those at its own address.
     bool call_everyone() {
         for (int i = 0; i < kCalls; ++i) {
             const auto version = read(kEveryone, registers::PROG_VERSION);
@@ -114,7 +114,7 @@ class Finder {
         return true;
     }
 
-    /// An answer does not say whose it is: a late one must not be taken for another address's.
+    /// An answer has no address: a late one must not be assigned to another address.
     bool says_more(std::uint8_t address, std::uint32_t version) {
         if (version == gw::kIdentity) return true;
         master_.pause(options_.patience);
@@ -249,7 +249,7 @@ bool Motor::is_behind_gateway() {
     if (gateway_) return *gateway_;
     gateway_ = false;
     if (address_ == gw::kDefaultAddress) return false;
-    // Who is not there is silent; what came damaged may have been a gateway's answer.
+    // An absent unit is silent; a damaged reply may have been a gateway's answer.
     for (unsigned i = 0; i < kGatewayAttempts && !*gateway_; ++i) {
         const std::uint64_t strays = master_.counters().stray_bytes;
         const auto block = master_.try_read_block(gw::kDefaultAddress, gw::IDENTITY);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t kAll = ~std::uint32_t{0};
 
-/// What the motor itself counts, shows or sets, or what acts at once, though one may write it.
+/// Registers that are writable, but that the motor itself counts, shows or sets, or that act at once.
 bool is_passing(const Register& reg) {
     switch (reg.number) {
         case registers::MODE_REG:
@@ -71,7 +71,7 @@ ParameterSet read(Motor& motor, bool everything, const Received& received,
     return set;
 }
 
-/// The text that gives exactly this raw value again.
+/// The text that parses to exactly this raw value.
 std::string exact_text(const Register& reg, Model model, std::int64_t raw) {
     const std::string text = value_text(reg, model, raw);
     const TypedValue typed = typed_value(reg, model, text);
@@ -79,7 +79,8 @@ std::string exact_text(const Register& reg, Model model, std::int64_t raw) {
     return fmt::format("raw:{}", raw);
 }
 
-/// What a motor had may be outside of the register's range; a dump writes it as raw:N, and it is taken back.
+/// A value read from a motor may be outside the register's range; a dump writes it as raw:N, which is
+/// accepted again.
 std::optional<std::int64_t> found_in_motor(const Register& reg, std::string_view text) {
     if (!text.starts_with("raw:")) return std::nullopt;
     const auto raw = spelling::whole_number(text.substr(4));
@@ -115,7 +116,7 @@ struct Parser {
         std::size_t count = 0;
         const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), count);
         const std::string_view unit = trimmed({rest, value.data() + value.size()});
-        // What is cut off in this very line has the whole file before it.
+        // If only this line is cut off, all values before it are complete
         if (error != std::errc() || !std::string_view("registers").starts_with(unit))
             return problem(fmt::format("'end = {}': write `end = N registers`", value));
         declared = count;
@@ -130,7 +131,7 @@ struct Parser {
             ++shown;
     }
 
-    /// Why it is not whole; empty if it is.
+    /// Why it is incomplete; empty if it is complete.
     std::string missing() const {
         const std::size_t found = file.set.values.size();
         if (!declared) return "no line says 'end = ...', so it may be cut short";

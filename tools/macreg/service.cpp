@@ -21,8 +21,8 @@ constexpr base::Milliseconds kRestartWait{5'000};
 constexpr base::Milliseconds kOrderWait{1'000};
 constexpr int kOrders = 3;
 
-/// A gateway that does not let 54h to 57h through says nothing; its registers do. The motor has not heard of
-/// it.
+/// A gateway that refuses 54h to 57h does not answer; its registers show the refusal. The motor has not
+/// received the message.
 [[noreturn]] void no_accept(Motor& motor, const LineError& error, Trail& trail) {
     const std::string refusal =
         error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::service) : std::string();
@@ -88,7 +88,7 @@ SafeMode::~SafeMode() {
     try {
         motor_.master().init_mode(motor_.address());
         trail_.in_safe_mode = false;
-    } catch (const std::exception&) {  // the line is gone; nothing more can be done
+    } catch (const std::exception&) {  // the line has failed; nothing more can be done
     }
 }
 
@@ -120,7 +120,7 @@ void Service::exit_safe() {
     trail_.in_safe_mode = false;
 }
 
-/// Out of SAFE_MODE it has been reset: no other message does that here. False: the order was lost.
+/// If it is out of SAFE_MODE it has been reset: no other message does that here. False: the command was lost.
 bool Service::wait_until_out_of_safe() {
     const base::Instant begun = motor_.now();
     std::string silence = "the motor does not answer any more";
@@ -138,8 +138,7 @@ bool Service::wait_until_out_of_safe() {
                     silence + "; if its address came back to another value, `macreg find` shows it");
 }
 
-/// Nothing is answered to 56h, 57h and MODE_REG 256: they are sent again while the motor is still in
-/// SAFE_MODE.
+/// 56h, 57h and MODE_REG 256 have no answer: they are repeated while the motor is still in SAFE_MODE.
 void Service::order_reset(const std::function<void()>& order, const char* what) {
     SafeMode safe(motor_, stop_, goes_on_, trail_);
     look();
@@ -184,7 +183,7 @@ void Service::reload() {
     order_parameters(kReload, "read its flash");
 }
 
-/// Reading parameters twice is reading them once.
+/// Reading parameters twice has no side effects.
 void Service::order_parameters(std::int64_t code, const char* what) {
     SafeMode safe(motor_, stop_, goes_on_, trail_);
     look();

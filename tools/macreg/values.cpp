@@ -24,7 +24,7 @@ using spelling::whole_number;
 
 namespace {
 
-/// What stands before the unit, if it is meant to be a number and is none: 1,5 or 1e3.
+/// The text before the unit, if it looks like a number but is malformed: 1,5 or 1e3.
 std::string_view malformed_number(const Register& reg, Model model, std::string_view text) {
     for (std::size_t end = text.size(); end > 0; --end) {
         const std::string_view unit = text.substr(end);
@@ -39,7 +39,7 @@ std::string_view malformed_number(const Register& reg, Model model, std::string_
     return {};
 }
 
-/// How many letters in a row both have.
+/// The length of their longest common substring.
 std::size_t in_common(std::string_view a, std::string_view b) {
     std::size_t most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -148,7 +148,7 @@ std::string squeezed(std::string_view name) {
     return letters;
 }
 
-/// The name that was meant: a letter in three may be wrong, or a part of it is another's.
+/// The name that was probably meant: one letter in three may be wrong, or the text is part of the name.
 std::string nearest(Model model, std::string_view text) {
     constexpr std::size_t kMostWrong = 2;
     constexpr std::size_t kLeastPart = 3;
@@ -172,7 +172,7 @@ std::string nearest(Model model, std::string_view text) {
     return best;
 }
 
-/// A unit that stands apart, or one more bit's name.
+/// A unit as a word of its own, or one more bit's name.
 bool belongs_to_value(const Register& reg, Model model, const std::string& word) {
     if (registers::find(model, std::string_view(word)) != nullptr) return false;
     if (reg.unit == registers::Unit::bits)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr base::Milliseconds kBetween{200};
 
-/// Its registers are those that the gateway keeps for it, and most of them none.
+/// For a drive of another kind the gateway has substitute registers only, and few of them.
 void expect_jvl_motor(Motor& motor) {
     const std::uint32_t kind =
         motor.master().read(gw::kDefaultAddress, gw::register_of(gw::Setting::motor_kind));

@@ -122,7 +122,7 @@ Master::Reply Master::ask(const mactalk::Request& request, std::size_t data_byte
 std::optional<Master::Reply> Master::ask_once(const Question& question) {
     if (question.bytes.empty())
         throw LineError(LineError::Kind::no_message, "MacTalk has no message for this register or length");
-    // An accept does not say whose it is.
+    // An accept carries no address
     counters_.stray_bytes += line_.settle(question.answer == mactalk::Answer::accept);
     line_.send(question.bytes);
     ++counters_.questions;
@@ -150,7 +150,7 @@ std::optional<Master::Reply> Master::ask_once(const Question& question) {
     return std::nullopt;
 }
 
-/// Silence says something else than bytes that are no answer.
+/// Distinguishes silence from bytes that are no answer.
 void Master::no_answer(std::uint8_t address, unsigned attempts, std::uint64_t bytes) const {
     const bool others = counters_.answers > 0;
     const std::string heard =

@@ -11,7 +11,7 @@ namespace can = protocol::midi_can;
 
 namespace {
 
-/// In which a second module would have answered, too.
+/// Time in which a second module would have answered, too.
 constexpr base::Microseconds kOthers{50'000};
 
 std::string words_of(const ports::CanFrame& frame) {
@@ -78,7 +78,7 @@ CanLink::Programmed CanLink::program_address(std::uint8_t address) {
         end = std::min(end, can_.now() + kOthers);
     }
     if (taken + refused > 1) return Programmed::several;
-    // The module is in configuration whatever it said: it is always led back.
+    // Whatever it answered, the module is in configuration state: it is always switched back to operation.
     send({.kind = can::Request::Kind::operate});
     if (taken == 0) return refused != 0 ? Programmed::refused : Programmed::silence;
     end = can_.now() + options_.longest_boot;
@@ -131,12 +131,12 @@ can::Answer CanLink::hear(base::Microseconds wait) {
     return take(*frame);
 }
 
-/// Reads over what came before the request.
+/// Discards what was received before the request.
 void CanLink::drain() {
     while (const auto frame = can_.read(base::Microseconds{0})) take(*frame);
 }
 
-/// Other masters' requests are answered too; what is for all by the module at address 1 (003 §V.8).
+/// Requests of other masters are answered too; a broadcast is answered by the module at address 1 (003 §V.8).
 can::Answer CanLink::take(const ports::CanFrame& frame) {
     if (frame.extended || frame.remote) return {};
     const can::Request request = can::decode_request(frame);

@@ -11,7 +11,8 @@ namespace {
 constexpr double kLeastCorners = 24;
 constexpr double kTicks = registers::midi::kTicksPerSecond;
 
-/// When a point so far along the way is reached, in seconds: speeding up evenly, slowing down evenly.
+/// The time at which a point so far along the path is reached, in seconds: constant acceleration and
+/// deceleration.
 class Timing {
   public:
     Timing(double length, double speed, double acceleration) : length_(length), acceleration_(acceleration) {

@@ -80,7 +80,7 @@ void abort_firmware(GatewayClient& gateway) {
     try {
         gateway.command(gw::Command::firmware_abort);
     } catch (const std::exception&) {
-        // The next begin gives it up too.
+        // The next begin cancels it too
     }
 }
 

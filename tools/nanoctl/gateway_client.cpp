@@ -19,7 +19,7 @@ constexpr unsigned kBusyTries = 100;
 constexpr base::Milliseconds kStartPause{200};
 constexpr unsigned kStartLooks = 5;
 
-/// What to do where it depends on the command.
+/// What to do, for errors where it depends on the command.
 std::string reason(gw::Command command, gw::Result result) {
     if (result == gw::Result::not_stopped && command == gw::Command::run) return "the sequence runs already";
     if (result == gw::Result::not_stopped && (command == gw::Command::step || command == gw::Command::scan))
@@ -81,7 +81,7 @@ void GatewayClient::lost(const std::string& what) const {
                                                             master_.wire().name(), what));
 }
 
-/// A refusal counts when it was seen twice: the first may be of an earlier write to the same register.
+/// A refusal must be read twice: the first may belong to an earlier write to the same register.
 void GatewayClient::write(std::uint8_t reg, std::uint32_t value) {
     const gw::Row* row = gw::find(reg);
     const std::string what = row != nullptr ? std::string(row->name) : fmt::format("register {}", reg);
@@ -95,8 +95,7 @@ void GatewayClient::write(std::uint8_t reg, std::uint32_t value) {
     lost(what);
 }
 
-/// A write to another register comes before, so that RESULT tells a command that was lost from one whose
-/// accept was.
+/// A write to another register first, so that RESULT distinguishes a lost command from a lost accept.
 void GatewayClient::command_once(gw::Command command, base::Microseconds more_patience) {
     const auto code = static_cast<std::uint32_t>(command);
     const std::string what(name_of(command));
@@ -155,8 +154,8 @@ void GatewayClient::activate() {
     }
 }
 
-/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards. A stored
-/// table that would become active by it does so before, with the answers that tell why not.
+/// The gateway does not answer to a reset; RESULT, which named a register before, is 0 afterwards. A stored
+/// table that the reset would activate is activated before it, so that refusals are answered.
 void GatewayClient::reset() {
     if ((read(gw::STATUS) & gw::kStoredDiffers) != 0) activate();
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);

@@ -9,7 +9,7 @@ constexpr base::Milliseconds kBetweenTries{20};
 
 }  // namespace
 
-/// One that turns everybody away at once is not asked without a pause.
+/// A pause between attempts, for an end that closes every connection at once.
 bool Reconnecting::connect() {
     if (is_connected_) return true;
     sleep_(kBetweenTries);
@@ -26,7 +26,7 @@ bool Reconnecting::write(std::span<const std::uint8_t> bytes) {
     return now() < end_;
 }
 
-/// What the new connection is for was sent on the old one: nothing comes.
+/// The pending request was sent on the old connection: no answer will come.
 std::optional<std::size_t> Reconnecting::read(std::span<std::uint8_t> out, base::Microseconds wait) {
     if (is_connected_) {
         if (const auto count = client_->read(out, wait)) return count;

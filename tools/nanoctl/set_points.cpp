@@ -25,7 +25,7 @@ std::uint32_t pointer_to(std::size_t view) {
                   "the set-points cannot be read, another client reads them all the time; try again");
 }
 
-/// What the pointer leads to; other clients move the same one.
+/// The registers behind the pointer; other clients move the same pointer.
 Block read_part(GatewayClient& gateway, std::uint32_t pointer) {
     for (unsigned i = 0; i < kReads; ++i) {
         gateway.write(gw::SET_POINT_POINTER, pointer);
@@ -35,9 +35,13 @@ Block read_part(GatewayClient& gateway, std::uint32_t pointer) {
     give_up();
 }
 
-std::vector<std::uint8_t> read_view(GatewayClient& gateway, std::size_t view, std::size_t length) {
+/// `part`: how much of each block counts. Gateways before showed changes only from their first byte on, whole
+/// ones.
+std::vector<std::uint8_t> read_view(GatewayClient& gateway, std::size_t view, std::size_t length,
+                                    std::size_t part = gw::kSetPointDataBytes) {
     std::vector<std::uint8_t> bytes;
-    for (std::size_t at = 0; at < length; at += gw::kSetPointDataBytes) {
+    for (std::size_t at = 0; at < length; at += part) {
+        bytes.resize(at);
         const Block block = read_part(gateway, pointer_to(view) | static_cast<std::uint32_t>(at));
         for (std::size_t word = 1; word < block.size(); ++word) {
             bytes.resize(bytes.size() + 4);
@@ -105,8 +109,9 @@ KnownChanges read_changes(GatewayClient& gateway) {
     constexpr std::size_t kKept = 16;
     if ((gateway.read(gw::SET_POINT_COUNT) & 0xFF) == 0) return {};
     KnownChanges known{read_record(gateway), {}};
-    const auto bytes =
-        read_view(gateway, static_cast<std::size_t>(gw::SetPointView::changes), kKept * gw::kChangeBytes);
+    constexpr std::size_t kWhole = gw::kSetPointDataBytes / gw::kChangeBytes * gw::kChangeBytes;
+    const auto bytes = read_view(gateway, static_cast<std::size_t>(gw::SetPointView::changes),
+                                 kKept * gw::kChangeBytes, kWhole);
     known.changes = set_points::decode_changes(bytes, known.record);
     return known;
 }
@@ -123,7 +128,7 @@ std::string read_dropped(GatewayClient& gateway, const set_points::Record& recor
 
 namespace {
 
-/// A request as it stands with the gateway, by its own number.
+/// A pending request in the gateway, identified by its number.
 class SentRequest {
   public:
     SentRequest(GatewayClient& gateway, std::vector<std::uint8_t> request)
@@ -132,7 +137,7 @@ class SentRequest {
         set_points::give_number(request_, number_);
     }
 
-    /// Sent again until its end is known: the gateway carries it out once.
+    /// Repeated until its result is known: the gateway carries it out once.
     GatewayClient::LastResult outcome() {
         for (unsigned i = 0; i < kAttempts; ++i) {
             if (i != 0) gateway_.look_for_interruption();
@@ -152,12 +157,12 @@ class SentRequest {
     static constexpr base::Milliseconds kLook{100};
     static constexpr base::Milliseconds kLongest{60'000};
 
-    /// Not of the request itself, so it was not begun.
+    /// The error is not of the request itself, so it was not begun.
     static bool is_of_the_line(gw::Result result) {
         return result == gw::Result::seat_taken || result == gw::Result::too_late;
     }
 
-    /// Nothing: the gateway does not know it.
+    /// nullopt: the gateway does not know it.
     std::optional<GatewayClient::LastResult> wait_for_end() {
         const base::Instant end = gateway_.master().wire().now() + kLongest;
         for (;;) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "spelling/edit_distance.h"
 #include "spelling/text.h"
 
 namespace nplc::nanoctl {
@@ -90,6 +91,21 @@ std::optional<unsigned> Names::find_output(const std::string& text) const {
 std::optional<unsigned> Names::find_step(const std::string& text) const {
     if (const auto number = number_of(text, 63)) return number;
     return find(text, "STEP", symbols_ ? &symbols_->symbols.steps : nullptr, 63);
+}
+
+std::string Names::guess(const std::string& text, bool of_steps) const {
+    if (!symbols_) return {};
+    const seqc::Symbols& symbols = symbols_->symbols;
+    std::vector<std::string_view> known;
+    if (of_steps) {
+        known.assign(symbols.steps.begin(), symbols.steps.end());
+    } else {
+        known.assign(symbols.inputs.begin(), symbols.inputs.end());
+        known.insert(known.end(), symbols.outputs.begin(), symbols.outputs.end());
+    }
+    std::erase_if(known, [](std::string_view name) { return name.empty(); });
+    const std::string_view meant = spelling::nearest(text, known);
+    return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
 }
 
 std::uint64_t Names::with_copies(unsigned step) const {

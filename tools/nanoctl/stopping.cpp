@@ -12,11 +12,11 @@ using mactalk_client::LineError;
 
 namespace {
 
-/// The motor's confirmation is waited for so long.
+/// Timeout for the motor's confirmation.
 constexpr base::Milliseconds kBetweenLooks{20};
 
-/// Until its status shows it the command is sent again: a message may be lost, and another client may own the
-/// line's answers.
+/// The command is repeated until the status confirms it: a message may be lost, and another client may get
+/// the line's answers.
 class Stopping {
   public:
     Stopping(GatewayClient& gateway, gw::Command command)
@@ -38,7 +38,7 @@ class Stopping {
     base::Instant now() const { return gateway_.master().wire().now(); }
     bool holds() const { return command_ == gw::Command::hold; }
 
-    /// Who has a serial line gives way within some 20 ms, or the command is sent all the same.
+    /// Another program releases a serial line within some 20 ms; otherwise the command is sent nevertheless.
     std::optional<Status> send_and_look() {
         static_cast<void>(gateway_.master().wire().rest(base::Microseconds{0}));
         gateway_.master().send_write(gateway_.address(), gw::COMMAND, static_cast<std::uint32_t>(command_),
@@ -50,7 +50,7 @@ class Stopping {
         const auto block = gateway_.try_read_block(gw::STATUS);
         if (!block) return std::nullopt;
         const Status status(*block);
-        // Sent once more it would be another stop, to be confirmed anew.
+        // A repeat would be another stop, to be confirmed again.
         is_asked_ = is_ordered(status) && status.has(gw::kStopUnconfirmed);
         return status;
     }
@@ -91,8 +91,8 @@ class Stopping {
     GatewayClient& gateway_;
     gw::Command command_;
     base::Instant begun_;
-    bool is_asked_ = false;                    ///< the gateway has it, and waits for the motor
-    std::optional<base::Instant> ordered_at_;  ///< seen first that the gateway has it
+    bool is_asked_ = false;                    ///< the gateway has received it, and waits for the motor
+    std::optional<base::Instant> ordered_at_;  ///< first confirmation that the gateway has received it
 };
 
 }  // namespace

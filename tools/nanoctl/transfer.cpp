@@ -21,7 +21,7 @@ constexpr std::size_t kLargestPiece = protocol::mactalk::kMaxLongWrite;
 constexpr std::size_t kSmallestPiece = 8;
 constexpr unsigned kLostInARow = 40;
 constexpr unsigned kGoodBeforeLarger = 4;
-/// The gateway waits so long for room in its storage before it refuses a piece.
+/// Maximum time that the gateway waits for room in its storage before it refuses a piece.
 constexpr base::Milliseconds kRoomWait{1'000};
 constexpr base::Milliseconds kPollPause{20};
 constexpr unsigned kMostPolls = 1'500;
@@ -88,7 +88,7 @@ class Upload {
         return true;
     }
 
-    /// Finds out what has come and goes on from there.
+    /// Reads how much has arrived and continues from there.
     void recover() {
         good_ = 0;
         piece_ = std::max(piece_ / 2, kSmallestPiece);
@@ -122,7 +122,8 @@ void commit(GatewayClient& gateway) {
     }
 }
 
-/// Does a part of an upload; if the gateway is lost in it, what it has stored then is said too.
+/// Runs a part of an upload; if the connection is lost in it, the error also says what the gateway has
+/// stored.
 void part(const char* stored, const std::function<void()>& what) {
     try {
         what();
@@ -150,7 +151,7 @@ void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, c
         });
 }
 
-/// Why the gateway's drive cannot do what a term orders; empty where that is not known.
+/// Why the gateway's drive cannot carry out the command of a term; empty where that is unknown.
 std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> table, std::uint16_t term) {
     const auto loaded = sequencer::Table::load(table);
     if (!loaded.ok || term >= loaded.table.size()) return {};
@@ -180,7 +181,7 @@ void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const P
     try {
         upload_whole(gateway, table, progress);
     } catch (const Refused& refused) {
-        // What is under way now is another client's if this one was aborted.
+        // The present upload is another client's if this one was aborted.
         if (refused.reg() != gw::UPLOAD_STATE && refused.result() != gw::Result::no_upload)
             cancel_upload(gateway);
         if (refused.result() != gw::Result::not_for_motor) throw;

@@ -13,7 +13,7 @@ namespace {
 using mactalk_client::LineError;
 using registers::Model;
 
-/// The motor behind a gateway, read through it.
+/// The motor's registers, read through the gateway.
 class MotorReader {
   public:
     explicit MotorReader(GatewayClient& gateway)
@@ -50,7 +50,7 @@ causes::GatewayState state_of(const Status& status) {
     return {.status = status.bits, .safe_reason = static_cast<std::uint32_t>(status.safe_reason)};
 }
 
-/// The log's last word of it, as long as there is an error.
+/// The log's last entry of the error, while there is one.
 gw::DriveFault fault_of(GatewayClient& gateway, const Status& status) {
     gw::DriveFault fault = gw::DriveFault::none;
     if (!status.has(gw::kMotorError)) return fault;
@@ -77,7 +77,7 @@ void take_errors(std::int64_t err_stat, causes::MidiState& drive) {
 
 void ask_midi(MotorReader& motor, const Status& status, causes::MidiState& drive) {
     constexpr base::Milliseconds kStuck{1'200};
-    constexpr std::int64_t kStandby = 20;  // counts: more than the increments that a shaft may swing
+    constexpr std::int64_t kStandby = 20;  // counts; more than the oscillation of a shaft
     const std::int64_t place = motor.read(registers::P_IST);
     const std::int64_t mode = motor.read(registers::MODE_REG);
     take_errors(motor.read(registers::ERR_STAT), drive);

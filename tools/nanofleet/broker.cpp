@@ -17,9 +17,9 @@ namespace {
 using command_line::Failure;
 
 constexpr int kKeepAliveSeconds = 30;
-constexpr int kFirstTries = 100;  ///< of 50 ms each
+constexpr int kFirstTries = 100;  ///< of 50 ms each, to connect first
 constexpr int kPiece = 50;
-/// Topics of one subscription: a broker's message is not endless.
+/// Topics per subscription: a broker limits the message length.
 constexpr std::size_t kMostTopics = 100;
 
 }  // namespace
@@ -53,7 +53,7 @@ class Broker::Session {
     broker::Session handle_;
     bool is_connected_ = false;
     bool is_denied_ = false;
-    std::string refusal_;  ///< of the broker or the library
+    std::string refusal_;  ///< reported by the broker or the library
     std::vector<std::string> topics_;
     std::map<std::string, std::string> published_;
     std::set<int> unconfirmed_;

@@ -14,7 +14,7 @@ namespace {
 
 using toml_files::Value;
 
-/// Takes values out of a fleet's file; the first mistake stays.
+/// Reads values of a fleet's file; the first error is kept.
 class Reader {
   public:
     Reader(FleetReading& result, std::string folder) : result_(result), folder_(std::move(folder)) {}

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using command_line::UserError;
 
-/// A new file, on the disk when it returns; nothing is left of one that failed.
+/// A new file, flushed to the disk on return; a failed one is removed.
 void make_file(const std::string& path, const std::string& text, unsigned mode) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (file < 0 && errno == EEXIST)

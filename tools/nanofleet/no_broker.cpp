@@ -1,4 +1,4 @@
-// Where there is no libmosquitto.
+// The substitute where there is no libmosquitto.
 #include "command_line/program.h"
 #include "nanofleet/broker.h"
 

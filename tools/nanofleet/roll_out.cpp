@@ -57,7 +57,7 @@ std::size_t RollOut::count(Outcome::Kind kind) const {
         outcomes_.begin(), outcomes_.end(), [kind](const Outcome& outcome) { return outcome.kind == kind; }));
 }
 
-/// One, a tenth, all, of those that are not silent.
+/// One, a tenth, all, without the silent ones.
 std::size_t RollOut::end_of_stage() const {
     const std::size_t all = outcomes_.size();
     if (stage_ + 1 >= kStages) return all;
@@ -90,14 +90,14 @@ void RollOut::look(const Roster& roster, std::uint64_t now, const Publish& publi
     if (count(Kind::ordered) != 0) return;
     const bool is_last = stage_ + 1 >= kStages;
     is_over_ = was_stopped_ || (is_last && count(Kind::waits) == 0);
-    // Silent ones make a stage longer.
+    // Silent gateways do not count: the stage gets others instead
     if (!is_last &&
         std::none_of(outcomes_.begin(), outcomes_.begin() + static_cast<std::ptrdiff_t>(end_of_stage()),
                      [](const Outcome& one) { return one.kind == Kind::waits; }))
         ++stage_;
 }
 
-/// What was ordered before, by whoever, is no other order.
+/// An existing order for the same table, from any client, is followed instead of repeated.
 void RollOut::begin(Outcome& outcome, const Heard& heard, std::uint64_t now, const Publish& publish) {
     const Standing standing = judge(heard, wanted_, now, plan_.oldest);
     if (standing.kind == Standing::Kind::silent) return end(outcome, Kind::silent, standing.text, now);

@@ -16,7 +16,7 @@ nplc_package_documents(seqc)
 nplc_package_manual(seqc seqc)
 nplc_package_manual(seqc nanoplc-sim)
 
-# The simulator's target comes later.
+# Deferred: the simulator's target is defined later.
 cmake_language(DEFER DIRECTORY "${PROJECT_SOURCE_DIR}" CALL install TARGETS seqc nanoplc-sim RUNTIME DESTINATION bin COMPONENT seqc)
 install(FILES "${editors}/nvim/lua/seqc.lua" DESTINATION share/seqc/nvim/lua COMPONENT seqc)
 install(FILES LANGUAGE.md README.md RECIPES.md DESTINATION share/doc/seqc COMPONENT seqc)

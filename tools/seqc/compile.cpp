@@ -44,7 +44,7 @@ void emit_all(const std::vector<LoweredTerm>& terms, const Plan& plan, Compilati
     }
 }
 
-/// What is sent takes a term each, and what does not send still takes one; branches may share them.
+/// Lower bound: each order takes a term, and a branch without orders also takes one; branches may share them.
 std::size_t fewest_terms(const Plan& plan) {
     std::size_t sum = 0;
     for (const StepPlan& step : plan.steps) {
@@ -55,7 +55,7 @@ std::size_t fewest_terms(const Plan& plan) {
     return sum;
 }
 
-/// Said before the terms are made, which would take long.
+/// Reported before the terms are generated, which would take long.
 void check_fewest_terms(const Plan& plan, Span span, Report& report) {
     const std::size_t fewest = fewest_terms(plan);
     std::size_t written = 0;
@@ -67,7 +67,7 @@ void check_fewest_terms(const Plan& plan, Span span, Report& report) {
         "simplify conditions or join steps");
 }
 
-/// The end term counts too. TERMs alone may be as many as one likes: such a table exists already.
+/// Includes the end term. The number of TERMs alone is not limited, since such a table exists already.
 void check_length(std::size_t in_steps, const Plan& plan, Span span, Report& report) {
     const bool has_end = !plan.terms.empty() && sequencer::is_end(plan.terms.back().bytes);
     const std::size_t count = in_steps + plan.terms.size() + (has_end ? 0 : 1);
@@ -83,14 +83,14 @@ void check_length(std::size_t in_steps, const Plan& plan, Span span, Report& rep
     }
 }
 
-/// Worth reporting although whole statements are missing after a syntax error.
+/// Whether a diagnostic is still valid if whole statements are missing after a syntax error.
 bool stands_without_the_rest(const Diagnostic& d) {
     const Phase phase = find_code(d.code)->phase;
     return d.severity == Severity::error &&
            (phase == Phase::names || phase == Phase::motor || phase == Phase::commands);
 }
 
-/// A gateway does not begin before its motor has answered, whatever the program is about.
+/// A gateway starts only after its motor has answered, so every program needs MOTOR.
 void check_motor_is_named(const ast::Program& program, const Plan& plan, Report& report) {
     if (program.motor || program.motor_missing || plan.steps.empty()) return;
     report.add("W026", program.name.span,
@@ -135,7 +135,7 @@ void collect_allowances(const ast::Program& program, const Plan& plan, Compilati
     if (program.power_up) collect(*program.power_up);
 }
 
-/// Steps of a SEQUENCE say whose they are; those of a later call are copies of the first one's.
+/// Names the origin of the steps of a SEQUENCE; steps of a later call are copies of the first one's.
 void name_origins(const ast::Program& program, const Scope& scope, Compilation& result) {
     const auto number_of = [&](std::string_view name) -> std::optional<std::uint8_t> {
         for (std::size_t i = 0; i < scope.steps().size(); ++i) {
@@ -177,7 +177,7 @@ std::vector<LoweredTerm> lower_all(const Plan& plan, const std::vector<DeclaredS
     return terms;
 }
 
-/// The motor followed through the steps.
+/// Tracks the motor through the steps.
 void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, const Sources& sources,
                   Compilation& result, Report& checks) {
     const Symbols& symbols = result.symbols;
@@ -188,6 +188,7 @@ void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, c
     check_home_mode(plan, symbols.motor, checks);
     check_lasting_selections(plan, symbols, sources.text(), checks);
     check_standing_in_position(plan, checks);
+    if (symbols.drive == nullptr) check_lasting_motion(plan, sources.text(), checks);
     check_known_places(plan, symbols, scope.set_points(), sources.text(), checks);
     check_restart(program, plan, scope, checks);
     check_guards(program, plan, scope, checks);

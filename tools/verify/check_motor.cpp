@@ -21,7 +21,7 @@ std::string order_text(const MotorOrder& order) {
                                    : fmt::format("{:02X}h", order.command);
 }
 
-/// Of each group, whether one of its orders is such.
+/// For each group, whether one of its commands has the property.
 template <class IsSuch>
 std::vector<bool> of_groups(const Machine& machine, const IsSuch& is_such) {
     std::vector<bool> result;
@@ -30,7 +30,7 @@ std::vector<bool> of_groups(const Machine& machine, const IsSuch& is_such) {
     return result;
 }
 
-/// The groups of all scans that can be, in the order in which the first one of each was found.
+/// The groups of all reachable scans, in the order of discovery.
 std::vector<const Group*> used_groups(const Explorer& explorer) {
     std::vector<const Group*> groups;
     for (const Group& group : explorer.machine().all_groups()) {
@@ -142,7 +142,7 @@ const char* why_never(const MotorState& motor) {
     return why_zero(motor.speed);
 }
 
-/// V1..V8 that are only ever written as 0, and what may be 0 by its range.
+/// V1..V8 that are only ever written as 0, or may be 0 by their range.
 ZeroRegisters zero_registers(const Subject& subject) {
     ZeroRegisters zeros;
     ZeroRegisters others;
@@ -156,11 +156,11 @@ ZeroRegisters zero_registers(const Subject& subject) {
     return zeros;
 }
 
-/// What a scan makes of the motor.
+/// The effect of a scan on the motor.
 struct MotorChange {
     bool is_known = false;
     std::uint16_t then = 0;  ///< packed
-    const char* stands{};    ///< a move is ordered with V_SOLL 0: why it is
+    const char* stands{};    ///< why a move is commanded with V_SOLL 0
 };
 
 MotorChange change_by(const Group& group, std::uint16_t before, const ZeroRegisters& zeros) {
@@ -175,7 +175,7 @@ MotorChange change_by(const Group& group, std::uint16_t before, const ZeroRegist
     return {true, motor.packed(), stands ? why_zero(motor.speed) : nullptr};
 }
 
-/// V010 and V011, by following what the orders make of the motor.
+/// V010 and V011, by following the commands' effect on the motor.
 std::vector<Finding> find_motor_stands(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
     const auto no_limit = steps_without_limit(explorer.machine(), sensitivity);
@@ -217,7 +217,7 @@ std::vector<Finding> find_motor_stands(const Subject& subject, const Sensitivity
     return findings;
 }
 
-/// The order of a scan that a later one of it undoes.
+/// A command that a later one of the same scan cancels.
 std::optional<std::pair<MotorOrder, MotorOrder>> undone(const std::vector<MotorOrder>& orders) {
     std::optional<MotorOrder> move;
     std::map<std::uint8_t, MotorOrder> written;
@@ -297,7 +297,7 @@ std::vector<Finding> check_motor(const Subject& subject) {
     for (auto& more : {find_motor_stands(subject, sensitivity), find_undone(subject),
                        find_never_written(subject), find_no_limit(subject, sensitivity)})
         findings.insert(findings.end(), more.begin(), more.end());
-    // Of a step whose INPOS may never come more was said.
+    // Steps whose INPOS may never come have been reported already
     std::array<bool, 63> may_wait_for_ever{};
     for (const Finding& finding : findings) {
         if (finding.code == "V010") may_wait_for_ever[finding.step] = true;

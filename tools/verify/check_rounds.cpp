@@ -15,7 +15,7 @@ namespace {
 
 using Node = Explorer::Node;
 
-/// A place as far as it decides what a scan does: step, timer and counter zero or not.
+/// The part of a place that determines a scan: step, timer and counter zero or not.
 using Corner = std::uint8_t;
 constexpr std::size_t kCorners = (sequencer::kLastStep + std::size_t{1}) * 4;
 using Corners = std::bitset<kCorners>;
@@ -27,7 +27,7 @@ constexpr std::uint8_t step_of(Corner corner) {
     return corner / 4U;
 }
 
-/// V013: steps that go round with inputs as they are and no time needed.
+/// V013: cycles of steps with constant inputs and without time.
 class Rounds {
   public:
     explicit Rounds(const Subject& subject)
@@ -61,7 +61,7 @@ class Rounds {
         return machine_.group_with(step_of(corner), (corner & 1U) == 0, (corner & 2U) != 0, image_);
     }
 
-    /// Where the next scan can begin if no time passes; two where the counter goes down and may be zero.
+    /// The start of the next scan if no time passes; two where the counter goes down and may be zero.
     void find_next(Corner corner) {
         const sequencer::Pending& pending = group_at(corner).pending;
         const std::uint8_t step =
@@ -127,7 +127,7 @@ class Rounds {
         return !std::has_single_bit(steps) && !told_.contains(steps);
     }
 
-    /// A scan that the motor answers.
+    /// A scan to which the motor responds.
     bool waits(const Group& group) const {
         return (group.resets_error && (image_ & sequencer::kError) != 0) ||
                ((image_ & sequencer::kInPos) != 0 && moves_[group.number]);
@@ -152,7 +152,7 @@ class Rounds {
     }
     bool is_lively(Node node) const { return lively_[corner_of(node)]; }
 
-    /// A place on the way, and the edges from it that were not followed yet.
+    /// A place on the path, and its edges that have not been followed yet.
     struct Stop {
         Node node = 0;
         std::span<const Explorer::Edge> edges;
@@ -206,7 +206,7 @@ class Rounds {
         }
     }
 
-    /// The end of `edges` from `first` on goes round.
+    /// The end of `edges` from `first` on is a cycle.
     void judge(std::span<const Explorer::Edge* const> edges, Node first) {
         Steps steps = 0;
         std::vector<CourseScan> way;

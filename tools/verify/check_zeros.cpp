@@ -10,9 +10,9 @@
 namespace nplc::verify {
 namespace {
 
-/// What a scan of a group has to do with the timer's zero, or with the counter's.
+/// The relation of a scan of a group to the timer's zero, or to the counter's.
 struct Use {
-    ImageSet decided;     ///< images of which the zero decides what the scan does
+    ImageSet decided;     ///< images with which the zero decides the scan's effect
     bool sets = false;    ///< the timer or the counter
     bool leaves = false;  ///< the step
 };
@@ -39,13 +39,13 @@ std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity,
     return uses;
 }
 
-/// V007: a zero that is waited for and was never set, or already led on from another step.
+/// V007: a zero that a step waits for although it was never set, or has already been used by another step.
 std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
     const Explorer& explorer = subject.explorer;
     const std::vector<Use> uses = uses_of(explorer.machine(), sensitivity, timer);
     std::vector<bool> makes_stale;
     for (const Use& use : uses) makes_stale.push_back(use.leaves && !use.sets && use.decided.any());
-    // Not set is what it was at power-up, and after a scan that its zero led to another step.
+    // Not set: as at power-up, and after a scan in which its zero led to another step
     Walk walk(explorer, subject.courses.excluded());
     walk.begin_at_power_up(0);
     for (const Explorer::Edge& edge : explorer.edges()) {
@@ -107,7 +107,7 @@ class OtherPurpose {
     }
 
   private:
-    /// A copy of a step is that step.
+    /// A copy of a step counts as that step.
     std::uint64_t without_copies(std::uint64_t steps) const {
         std::uint64_t result = 0;
         for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {

@@ -19,7 +19,7 @@ void Excluded::forget() {
 
 Excluded::Symbol Excluded::symbol_of(const CourseScan& scan) {
     const Group& group = *scan.group;
-    const bool is_seen_moving = scan.place.motion == Motion::to_place && !group.in_pos && !group.disturbs;
+    const bool is_seen_moving = is_timed(scan.place.motion) && !group.in_pos && !group.disturbs;
     const unsigned flags = (scan.idle ? 1U : 0U) | (scan.place.runs ? 2U : 0U) | (scan.next_runs ? 4U : 0U) |
                            (is_seen_moving ? 8U : 0U) | (begins_move(group.orders) ? 16U : 0U);
     const TimesKey times{scan.delay.least, scan.delay.most, group.delay.end, group.pending.timer_preset,

@@ -13,7 +13,7 @@
 
 namespace nplc::verify {
 
-/// Scans of a course that no times allow together.
+/// Scans of a course that no times permit together.
 struct Conflict {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -25,23 +25,23 @@ struct Conflict {
     void join(const Conflict& other);
 };
 
-/// Courses that need not be tried: those with scans that conflict, told by what decides about times.
+/// Excluded courses: those with scans that conflict, described by what determines the times.
 class Excluded {
   public:
-    /// How far the scans so far agree with those of each conflict.
+    /// How far the scans so far match each conflict.
     using State = std::uint32_t;
     static constexpr State kOut = ~State{0};
 
     explicit Excluded(const Explorer& explorer) : explorer_(explorer) { forget(); }
 
     void add(std::span<const CourseScan> scans, const Conflict& conflict);
-    /// After one more scan; kOut if that is excluded. `begins`: a deadline, with this scan.
+    /// After one more scan; kOut if the course is excluded. `begins`: a deadline, with this scan.
     State next(State before, const Explorer::Edge& edge, bool begins = false);
     State next(State before, const CourseScan& scan);
     /// A course that has its deadline missed after this scan is excluded.
     bool ends_out(State before, const Explorer::Edge& edge, bool begins);
 
-    /// Scans that were looked at; a search that never ends is given up.
+    /// Scans examined; limits the search.
     void count_work(std::uint64_t scans = 1) { work_ += scans; }
     bool is_worn_out() const { return work_ > kMostWork; }
 

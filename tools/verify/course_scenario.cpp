@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeen = kDebounce + 2;
 /// For moves that end at once in a course.
 constexpr std::uint64_t kLimit = 60'000;
 
-/// Something that a scenario can wait for, by the end of a scan of the course.
+/// An event that a scenario can wait for, at the end of a scan of the course.
 struct Anchor {
     std::string event = "RUNNING";
     std::uint64_t times = 1;
@@ -26,7 +26,7 @@ struct Anchor {
     std::string counted() const { return times == 1 ? event : fmt::format("{} {} times", event, times); }
 };
 
-/// Finds the anchors as a course goes on: steps that are entered, and INPOS that comes while a step lasts.
+/// Finds the anchors along a course: entry of a step, and INPOS during a step.
 class Anchors {
   public:
     explicit Anchors(const Names& names) : names_(names) { happened_[entry(0)] = 1; }

@@ -6,8 +6,8 @@
 #include "conflict.h"
 #include "realize.h"
 
-/// Courses of an exploration without times, for questions whose first course has none: each the shortest of
-/// those that are not excluded.
+/// Courses of an exploration without times, for questions whose first course no times fit: each is the
+/// shortest that is not excluded.
 namespace nplc::verify {
 
 struct Way {
@@ -17,7 +17,7 @@ struct Way {
 
 /// Up to a scan of a target.
 std::optional<Way> way_to_target(const Explorer& explorer, const Target& target, Excluded& excluded);
-/// Up to a scan from which no way leads on.
+/// Up to a scan from which the target cannot be reached any more.
 std::optional<Way> way_to_stuck(const Explorer& explorer, const Explorer::Stuck& stuck, Excluded& excluded);
 /// That may miss the deadline of a WHENEVER or of a NEVER .. WHILE; with `cuts` also while a line that is
 /// lost holds the next scan up.

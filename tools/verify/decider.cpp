@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostTimedStates = 400'000;
 
-/// Courses were found, and none of them has times.
+/// Courses were found, but no times fit any of them.
 constexpr const char* kNoTimes =
     "there is a course that breaks it but for times, and neither these times nor another course were found "
     "(--assume any leaves such times out)";
@@ -29,7 +29,9 @@ constexpr const char* kLeavesTimesOut = " (--assume any leaves such times out)";
 
 std::string out_of_bounds(const Explorer& explorer) {
     return fmt::format(
-        "{} states were explored, and there are more{}; what leaves fewer may decide it: ASSUME "
+        "{} states were explored, and there are more{}; what leaves fewer may decide it: a count or a RANGE "
+        "of "
+        "counts that ends sooner (each count is a state of its own), ASSUME "
         "NEVER ERROR, ASSUME NEVER of inputs that cannot be together, a shorter time, or --assume "
         "any, which knows no times",
         explorer.size(), explorer.complete() ? " scans between them than are kept" : "");
@@ -81,7 +83,7 @@ Decider::Attempted Decider::attempted(const Way& way) const {
 }
 
 Decider::Finding Decider::tried(Excluded& excluded, const Ask& ask) const {
-    constexpr std::uint64_t kImagesWork = 128;  // of a scan, to choose its image
+    constexpr std::uint64_t kImagesWork = 128;  // work per scan to choose its image
     Finding finding;
     int tries = 0;
     while (tries == 0 || (tries < kMostTries && !excluded.is_worn_out())) {
@@ -253,7 +255,7 @@ Decider::Finding Decider::stuck_outside(std::size_t index) {
                     [&](Excluded& excluded) { return way_to_stuck(*coarse_, stuck, excluded); });
 }
 
-/// `stuck` is one of the coarse exploration, if there is one.
+/// `stuck`: one of the coarse exploration, or null.
 Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& stuck) {
     if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
     const std::vector<std::uint32_t> distances = coarse_->distances_to(target);
@@ -267,7 +269,7 @@ Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& 
     }
     if (auto played = realized(coarse_->course_to(stuck)))
         return {.answer = Answer::can_be, .played = std::move(played)};
-    const Explorer& exact = fine();  // without the scans that no times allow
+    const Explorer& exact = fine();  // without the scans that no times permit
     if (!exact.has_all_edges()) return {.why = out_of_bounds(exact)};
     const Explorer::Scans scans = exact.scans();
     stuck = coarse_->first_stuck(target, distances, &scans);

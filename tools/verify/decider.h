@@ -16,8 +16,8 @@ namespace nplc::verify {
 
 std::string out_of_bounds(const Explorer& explorer);
 
-/// Whether a scan can be, decided by ever more exact explorations: the timer as zero or running first, in
-/// milliseconds where that finds a course that no times fit.
+/// Decides whether a scan is reachable, by increasingly exact explorations: first with the timer as zero or
+/// running, then in milliseconds if that finds a course that no times fit.
 class Decider {
   public:
     Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
@@ -27,13 +27,13 @@ class Decider {
     struct Finding {
         Answer answer = Answer::unknown;
         std::optional<Played> played{};
-        std::string why{};       ///< it is unknown
-        std::string conflict{};  ///< in words, of the last course that was tried
+        std::string why{};       ///< the reason if it is unknown
+        std::string conflict{};  ///< of the last course that was tried, as text
     };
     /// The next course that is not excluded.
     using Ask = std::function<std::optional<Way>(Excluded&)>;
     static constexpr int kMostTries = 1000;
-    /// One course after the other, until one has times or `excluded` is worn out.
+    /// One course after the other, until times fit one or `excluded` is exhausted.
     Finding tried(Excluded& excluded, const Ask& ask) const;
 
     Finding scan_of_target(std::size_t target);
@@ -43,7 +43,7 @@ class Decider {
 
     const Explorer& coarse() const { return *coarse_; }
 
-    /// What is reached with some values of the ranges surely is with each.
+    /// Whether the target, which is reached with some values of the ranges, is certainly reached with each.
     bool is_reached_with_all(std::size_t target) const;
 
     std::optional<Played> realized(const std::vector<CourseScan>& scans,
@@ -62,7 +62,7 @@ class Decider {
     Finding explored_deadline(const Property& property, const Precision& precision) const;
     Finding explored_memory(const Property& property);
     Finding explored_stuck(const Target& target, Explorer::Stuck& stuck);
-    /// An open question of a course's times is decided by trying others.
+    /// An undecided course is resolved by trying others.
     Finding or_tried(Finding open, const Explorer& explorer, const Ask& ask) const;
     const Explorer& fine();
     const Explorer& punctual();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
@@ -47,7 +48,7 @@ std::string expression(const Condition& condition) {
         case Kind::odd_of:
             return joined(condition, " ^ ");
         case Kind::moving:
-            return "(motion != 0)";
+            return "(motion == 1 || motion == 2 || motion == 3 || motion >= 8)";
     }
     return {};
 }
@@ -86,7 +87,7 @@ std::string formula_text(const Formula& formula, std::uint32_t hold_ms) {
     return {};
 }
 
-/// What a formula asks of a scan's beginning; none if nothing.
+/// The condition at a scan's beginning that a formula needs; null if none.
 const Condition* beginning_of(const Formula& formula) {
     if (formula.kind == Formula::Kind::began) return formula.condition;
     for (const Formula& part : formula.parts) {
@@ -106,17 +107,36 @@ std::string condition_of(const ManualTerm& term) {
     return fmt::format("{}", fmt::join(parts, " && "));
 }
 
-constexpr std::array<const char*, 3> kMotions = {"0 /* stands */", "1 /* to a place */", "2 /* runs */"};
+/// motion after an order: those that change it, each with what it becomes.
+std::string effect_text(ManualMotion motion) {
+    const ManualMotions& then = effect_of(motion);
+    if (std::count(then.begin(), then.end(), then[0]) == std::ptrdiff_t{kManualMotions})
+        return fmt::format("{}", then[0]);
+    std::string text = "motion";
+    for (std::size_t before = 0; before < then.size(); ++before) {
+        if (then[before] != before)
+            text = fmt::format("(motion == {} -> {} : {})", before, then[before], text);
+    }
+    return text;
+}
 
 std::string motion_text(const ManualTerm& term, const Question& question) {
-    if (!question.tells_motion || term.motion == ManualMotion::keeps) return {};
-    return fmt::format("motion = {}{}", kMotions[static_cast<std::size_t>(term.motion)],
-                       question.move_ms != 0 ? "; moved = 0" : "");
+    if (!question.tells_motion || (term.motion == ManualMotion::keeps && term.clears == 0)) return {};
+    const std::string then = effect_text(term.motion);
+    if (term.clears == 0 || !question.clears_all()) {
+        const bool begins = question.move_ms != 0 && is_manual_timed(effect_of(term.motion)[0]);
+        return fmt::format("motion = {}{}{}", then, question.clears_all() ? "; cleared = 0" : "",
+                           begins ? "; moved = 0" : "");
+    }
+    return fmt::format(
+        "before_clear = (cleared == 0 -> motion : before_clear); cleared = cleared | {}; "
+        "motion = (cleared == {} -> before_clear : {})",
+        term.clears, kAllCleared, then);
 }
 
 std::string commands_of(const ManualTerm& term, const Question& question) {
     const std::string motion = motion_text(term, question);
-    if (term.is_flexmac) return motion;  // an order to the motor and nothing else
+    if (term.is_flexmac) return motion;  // only a command to the motor
     std::string text = fmt::format("wrote = true; output_byte = {}", term.output_byte);
     if (term.names_next) text += fmt::format("; next_step = {}", term.next_state);
     if (term.word != 0)
@@ -125,7 +145,7 @@ std::string commands_of(const ManualTerm& term, const Question& question) {
     return text;
 }
 
-/// Spin takes no d_step of any length. Between two of them nothing is chosen, so a scan stays one course.
+/// Spin limits the length of a d_step. Between two of them there is no choice, so a scan stays deterministic.
 std::string terms_text(const Question& question) {
     constexpr unsigned kAtOnce = 16;
     struct Step {
@@ -207,13 +227,14 @@ class Model {
         emission.text = fmt::format(
             "{}{}{}\n{}\nactive proctype gateway() {{\n{}   do\n   :: atomic {{\n"
             "      d_step {{ {}scanned = false;{} }};\n{}{}{}"
-            "      d_step {{ next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0 }};\n{}"
+            "      d_step {{ next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0{} }};\n{}"
             "      d_step {{{}"
             "      next_step = 0; wrote = false; output_byte = 0; timer_preset = 0; counter_preset = 0;\n"
             "     {} scanned = true\n      }} }}\n   od\n}}\n{}",
             kPromelaHeader, assumed(), kVariables, declared(), watches ? choice_of_watch() : "", kept_,
-            forgotten(question_.named), time(), chosen(), allowed(), terms_text(question_), executed(),
-            forgotten(question_.used & ~question_.named), claims_);
+            forgotten(question_.named), time(), chosen(), allowed(),
+            question_.tells_motion && question_.clears_all() ? "; cleared = 0" : "", terms_text(question_),
+            executed(), forgotten(question_.used & ~question_.named), claims_);
         return emission;
     }
 
@@ -264,7 +285,17 @@ class Model {
         }
         text += question_.counts_time() ? "int timer, dt;\n#define timer_runs (timer > 0)\n"
                                         : "bool timer_runs;                /* the timer is not 0 */\n";
-        if (question_.tells_motion) text += "byte motion;                    /* what was ordered */\n";
+        if (question_.tells_motion) {
+            text +=
+                "byte motion;                    /* 0 INIT, 1 to a place, 2 runs, 3 to a place for an "
+                "unknown time,\n"
+                "                                   4 in its place, 5 there with V_SOLL 0, 6 on its way with "
+                "V_SOLL 0,\n"
+                "                                   7 in velocity mode with V_SOLL 0, 8 homing, 9 for an "
+                "unknown time,\n"
+                "                                   10 in a torque or test mode */\n";
+        }
+        if (question_.tells_motion && question_.clears_all()) text += "hidden byte cleared, before_clear;\n";
         if (question_.move_ms != 0)
             text += "int moved;                      /* for how long, to a place */\n";
         if (watches_ != 0) {
@@ -282,7 +313,7 @@ class Model {
         return fmt::format("   if\n   :: watch = 0\n{}   fi;\n", choices_);
     }
 
-    /// What is told of a scan no more, so that it need not be kept apart.
+    /// Resets the facts of a scan that are not read any more, so that equal states merge.
     std::string forgotten(unsigned bits) const {
         std::string text;
         for (unsigned bit = 0; bit < 8; ++bit) {
@@ -298,8 +329,9 @@ class Model {
             "      d_step {{ timer = (timer > dt -> timer - dt : 0);",
             question_.longest());
         if (question_.move_ms != 0) {
-            text += fmt::format(" moved = (motion != 1 -> 0 : (moved + dt > {0} -> {1} : moved + dt));",
-                                question_.move_ms, question_.move_ms + 1);
+            text += fmt::format(
+                " moved = ((motion == 1 || motion == 8) -> (moved + dt > {0} -> {1} : moved + dt) : 0);",
+                question_.move_ms, question_.move_ms + 1);
         }
         if (question_.longest_hold != 0) {
             text += fmt::format(" held = (held < 0 -> held : (held + dt > {0} -> {0} : held + dt));",
@@ -324,12 +356,19 @@ class Model {
             if (assumption.move_ms == 0) text += fmt::format("      !{};\n", expression(assumption.never));
         }
         if (question_.move_ms != 0) {
-            text += fmt::format("      (motion != 1 || moved <= {} || inpos || error);\n", question_.move_ms);
+            text += fmt::format("      ((motion != 1 && motion != 8) || moved <= {} || inpos || error);\n",
+                                question_.move_ms);
         }
         if (!began_.empty()) text += fmt::format("      d_step {{ {} }};\n", began_.substr(2));
         if (!question_.tells_motion) return text;
-        text += "      if\n      :: (motion == 1 || motion == 3) && inpos -> motion = 0\n";
-        if (question_.move_ms != 0) text += "      :: motion == 1 && !inpos && error -> motion = 3\n";
+        text +=
+            "      if\n      :: (motion == 1 || motion == 3 || motion == 8 || motion == 9) && inpos -> "
+            "motion = 4\n";
+        if (question_.move_ms != 0) {
+            text +=
+                "      :: motion == 1 && !inpos && error -> motion = 3\n"
+                "      :: motion == 8 && !inpos && error -> motion = 9\n";
+        }
         return text + "      :: else\n      fi;\n";
     }
 
@@ -338,7 +377,7 @@ class Model {
         const std::string word = "PRESETS";
         text.replace(text.find(word), word.size(),
                      question_.counts_time() ? "timer = timer_preset" : "timer_runs = true");
-        if (question_.move_ms != 0) text += "      moved = (motion == 1 -> moved : 0);\n";
+        if (question_.move_ms != 0) text += "      moved = ((motion == 1 || motion == 8) -> moved : 0);\n";
         return text;
     }
 

@@ -8,11 +8,11 @@
 #include "manual_term.h"
 #include "verify/property.h"
 
-/// What is asked of a foreign checker, beside the table: of each property which scan breaks it (or is to be
-/// reached), and what must be remembered of the scans before.
+/// The question to an external checker, in addition to the table: which scan breaks a property (or is to be
+/// reached), and the state that must be stored from earlier scans.
 namespace nplc::verify {
 
-/// Of a scan: conditions at its end or beginning, and the two facts that are remembered.
+/// Of a scan: conditions at its end or beginning, and the two stored facts.
 struct Formula {
     enum class Kind : std::uint8_t { ended, began, first, second, negation, all_of, any_of, odd_of, held };
     Kind kind = Kind::ended;
@@ -25,7 +25,7 @@ struct Formula {
     friend Formula operator^(const Formula& a, const Formula& b) { return {Kind::odd_of, nullptr, {a, b}}; }
 };
 
-/// `bad` is judged after a scan; then both facts are remembered anew.
+/// `bad` is judged after a scan; then both facts are updated.
 struct Watch {
     Formula bad{};
     Formula first{};
@@ -33,35 +33,42 @@ struct Watch {
     bool remembers = false;
     bool first_at_power_up = false;
     bool second_at_power_up = false;
-    const Condition* lasts = nullptr;  ///< for how long it has held is counted; `held` is for `within_ms`
+    const Condition* lasts = nullptr;  ///< its duration is measured; `held` is for `within_ms`
 };
 
-/// Not for ALWAYS POSSIBLE, which asks for ways on.
+/// Not for ALWAYS POSSIBLE, which concerns later scans.
 Watch watch_of(const Property& property);
 
 inline bool asks_for_ways(const Property& property) {
     return property.form == Form::always_possible || property.form == Form::after_possible;
 }
 
-/// What all properties and assumptions need to be told apart.
+/// The state that all properties and assumptions need.
 struct Question {
     std::vector<ManualTerm> terms;
     const std::vector<Property>& properties;
     const std::vector<Assumption>& assumptions;
-    unsigned named = 0;         ///< bits of HW_INP that properties name
-    unsigned used = 0;          ///< and terms or assumptions
-    bool tells_motion = false;  ///< so INPOS and ERROR matter where they end or disturb a move
+    unsigned named = 0;  ///< bits of HW_INP that properties name
+    unsigned used = 0;   ///< and terms or assumptions
+    bool tells_motion =
+        false;  ///< motion is part of the state, so INPOS and ERROR matter where they end or disturb a move
     std::uint32_t move_ms = 0;
     std::uint32_t longest_hold = 0;  ///< of NEVER .. WHILE
     unsigned greatest_timer = 0;
     unsigned greatest_counter = 0;
 
-    /// `with_holds`: properties that ask how long something lasts are part of it.
+    /// `with_holds`: includes properties with a duration.
     Question(std::span<const std::uint8_t> table, const std::vector<Property>& asked,
              const std::vector<Assumption>& assumed, bool with_holds);
+    /// P_SOLL, P_IST and P_FNC may be cleared in one scan.
+    bool clears_all() const {
+        unsigned all = 0;
+        for (const ManualTerm& term : terms) all |= term.clears;
+        return all == kAllCleared;
+    }
     /// Else the timer is zero or runs.
     bool counts_time() const { return move_ms != 0 || longest_hold != 0; }
-    /// After which more makes no difference.
+    /// The value at which it saturates.
     std::uint32_t longest() const {
         return std::max({greatest_timer, move_ms == 0 ? 0 : move_ms + 1, longest_hold});
     }

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "emit_smt2_fields.h"
 #include "verify/emit.h"
@@ -24,17 +26,42 @@ struct Registers {
     unsigned output_byte = 0;
     unsigned timer_preset = 0;
     unsigned counter_preset = 0;
-    ManualMotion motion = ManualMotion::keeps;
+    ManualMotions motion = effect_of(ManualMotion::keeps);
+};
+
+/// Orders to the motion, one after the other.
+class MotionOrders {
+  public:
+    void add(const ManualTerm& term, ManualMotions& motion) {
+        const ManualMotions now = motion;
+        if (term.clears == 0) {
+            if (term.motion == ManualMotion::keeps) return;
+            cleared_ = 0;
+        } else {
+            if (cleared_ == 0) before_ = now;
+            cleared_ |= term.clears;
+        }
+        if (cleared_ == kAllCleared) {
+            motion = before_;
+            return;
+        }
+        for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = effect_of(term.motion)[now[i]];
+    }
+
+  private:
+    unsigned cleared_ = 0;
+    ManualMotions before_{};
 };
 
 Registers executed(const std::vector<ManualTerm>& terms, unsigned step, bool runs, bool counter_zero,
                    unsigned image) {
     Registers registers;
     registers.next_step = step;
+    MotionOrders orders;
     for (const ManualTerm& term : terms) {
         if (term.state != step || ((image ^ term.input) & term.compared) != 0) continue;
         if ((term.timer_must_be_zero && runs) || (term.counter_must_be_zero && !counter_zero)) continue;
-        if (term.motion != ManualMotion::keeps) registers.motion = term.motion;
+        orders.add(term, registers.motion);
         if (term.is_flexmac) continue;
         registers.wrote = true;
         registers.output_byte = term.output_byte;
@@ -50,7 +77,8 @@ class Clauses {
     explicit Clauses(Question question)
         : question_(std::move(question)),
           fields_(question_),
-          told_(question_.named | (question_.used & assumed_bits())) {}
+          told_(question_.named | (question_.used & assumed_bits())),
+          facts_(facts()) {}
 
     const Fields& fields() const { return fields_; }
     bool times_moves() const { return fields_.times_moves; }
@@ -68,10 +96,10 @@ class Clauses {
             result += fmt::format("(rule (Zero {} {}))\n(rule (Down {} {}))\n", from, bit(value == 0), from,
                                   bits(value == 0 ? 0 : value - 1, fields_.counter.width));
         }
-        return result + turns() + facts();
+        return result + turns() + facts_;
     }
 
-    /// While time passes, a relation of a state, and of what is remembered of scans, stays so.
+    /// The relations of a state and of the stored facts that do not change while time passes.
     std::string time(const std::string& relation, const std::string& remembered) const {
         const std::string from = fields_.here() + remembered;
         if (!times_moves()) {
@@ -104,22 +132,24 @@ class Clauses {
             R"((set-option :fp.engine datalog)
 (declare-var i (_ BitVec 8)) (declare-var z (_ BitVec 1)) (declare-var y (_ BitVec 1))
 {0}(declare-var u (_ BitVec {1})) (declare-var x (_ BitVec {2}))
-(declare-var k (_ BitVec 1)) (declare-var l (_ BitVec 1)) (declare-var g (_ BitVec 2))
+(declare-var k (_ BitVec 1)) (declare-var l (_ BitVec 1)) (declare-var g (_ BitVec {4})) (declare-var e (_ BitVec 1))
 ; step, timer runs, counter is 0, image -> step, timer preset, its value, outputs written, outputs, counter: 00 kept, 01 set,
-; 10 counted down; its value, motion: 00 stopped, 01 to a place, 10 runs, 11 kept
+; 10 counted down; its value, which orders to the motion
 (declare-rel Scan ((_ BitVec 6) (_ BitVec 1) (_ BitVec 1) (_ BitVec 8) (_ BitVec 6) (_ BitVec 1) (_ BitVec {2}) (_ BitVec 1)
-  (_ BitVec 4) (_ BitVec 2) (_ BitVec {1}) (_ BitVec 2)))
+  (_ BitVec 4) (_ BitVec 2) (_ BitVec {1}) (_ BitVec {4})))
 (declare-rel Zero ((_ BitVec {1}) (_ BitVec 1)))
 (declare-rel Down ((_ BitVec {1}) (_ BitVec {1})))
 (declare-rel Runs ((_ BitVec {2}) (_ BitVec 1)))
-; motion, INPOS seen, ERROR seen, what a scan orders -> motion
-(declare-rel Turn ((_ BitVec 2) (_ BitVec 1) (_ BitVec 1) (_ BitVec 2) (_ BitVec 2)))
+; motion, INPOS seen, ERROR seen, which orders -> motion, whether a move whose time is known goes on
+; motion: 0 INIT, 1 to a place, 2 runs, 3 to a place for an unknown time, 4 in its place, 5 there with V_SOLL 0, 6 on its way with
+; V_SOLL 0, 7 in velocity mode with V_SOLL 0, 8 homing, 9 homing for an unknown time, 10 in a torque or test mode
+(declare-rel Turn ((_ BitVec 4) (_ BitVec 1) (_ BitVec 1) (_ BitVec {4}) (_ BitVec 4) (_ BitVec 1)))
 ; a scan begins here; one leads from here to there; one ended here
 (declare-rel Begin ({3}))
 (declare-rel Move ({3} (_ BitVec 8) {3}))
 (declare-rel After ((_ BitVec 8) {3}))
 )",
-            vars, fields_.counter.width, fields_.timer.width, fields_.sorts());
+            vars, fields_.counter.width, fields_.timer.width, fields_.sorts(), orders_width());
     }
 
     /// A rule for each way to take over the outputs, the counter and the timer.
@@ -154,14 +184,14 @@ class Clauses {
                                motion);
         };
         if (!fields_.tells_motion) return rule("", "");
-        const std::string turn = " (Turn m ((_ extract 6 6) i) ((_ extract 7 7) i) g n)";
+        const std::string turn = " (Turn m ((_ extract 6 6) i) ((_ extract 7 7) i) g n e)";
         if (!times_moves()) return rule(turn, " n");
         const std::string in_time = fmt::format(
-            " (or (not (= m #b01)) (not (= v {})) (= ((_ extract 6 6) i) #b1) (= ((_ extract 7 7) i) #b1))",
+            " (or (not {}) (not (= v {})) (= ((_ extract 6 6) i) #b1) (= ((_ extract 7 7) i) #b1))", timed(),
             bits(question_.move_ms + 1, fields_.moved.width));
         const std::string none = bits(0, fields_.moved.width);
-        return rule(turn + in_time + " (= n #b01) (= g #b11)", " n v") +
-               rule(turn + in_time + " (or (not (= n #b01)) (not (= g #b11)))", " n " + none);
+        return rule(turn + in_time + " (= e #b1)", " n v") +
+               rule(turn + in_time + " (= e #b0)", " n " + none);
     }
 
     std::string left_out() const {
@@ -173,24 +203,35 @@ class Clauses {
         return text;
     }
 
-    /// Motion 3 is one to a place during which ERROR was seen; it is told only where moves are timed.
+    unsigned orders_width() const {
+        return std::max(1U, static_cast<unsigned>(std::bit_width(orders_.size() - 1)));
+    }
+
+    /// The motion at a scan's beginning is one whose time may be known.
+    static std::string timed() { return "(or (= m #b0001) (= m #b1000))"; }
+
+    /// An ERROR is told only where moves are timed.
     std::string turns() const {
         std::string text;
         if (!fields_.tells_motion) return text;
-        for (unsigned all = 0; all < 64; ++all) {
-            const unsigned before = all & 3U;
-            const bool in_pos = (all & 4U) != 0;
-            const bool error = (all & 8U) != 0;
-            const unsigned order = all >> 4U;
-            unsigned then = before;
-            if ((before == 1 || before == 3) && in_pos) {
-                then = 0;
-            } else if (before == 1 && error && times_moves()) {
-                then = 3;
+        for (std::size_t order = 0; order < orders_.size(); ++order) {
+            const bool begins = is_manual_timed(orders_[order][0]);
+            for (unsigned all = 0; all < kManualMotions * 4; ++all) {
+                const unsigned before = all >> 2U;
+                const bool in_pos = (all & 1U) != 0;
+                const bool error = (all & 2U) != 0;
+                unsigned seen = before;
+                const bool ends = before == 1 || before == 3 || before == 8 || before == 9;
+                if (ends && in_pos) {
+                    seen = 4;
+                } else if (error && times_moves() && (before == 1 || before == 8)) {
+                    seen = before == 1 ? 3 : 9;
+                }
+                const std::uint8_t then = orders_[order][seen];
+                text += fmt::format("(rule (Turn {} {} {} {} {} {}))\n", bits(before, 4), bit(in_pos),
+                                    bit(error), bits(static_cast<unsigned>(order), orders_width()),
+                                    bits(then, 4), bit(is_manual_timed(then) && !begins));
             }
-            if (order != 3) then = order;
-            text += fmt::format("(rule (Turn {} {} {} {} {}))\n", bits(before, 2), bit(in_pos), bit(error),
-                                bits(order, 2), bits(then, 2));
         }
         return text;
     }
@@ -215,34 +256,57 @@ class Clauses {
         return fmt::format(
                    "(declare-rel Less ((_ BitVec {0}) (_ BitVec {0})))\n"
                    "(declare-rel More ((_ BitVec {1}) (_ BitVec {1})))\n(declare-rel Tick ({2} {2}))\n"
-                   "(rule (=> (and (Begin {3}) (Less r q) (More v w) (= m #b01)) (Tick {3} s o q c m w)))\n"
-                   "(rule (=> (and (Begin {3}) (Less r q) (not (= m #b01))) (Tick {3} s o q c m v)))\n",
-                   fields_.timer.width, fields_.moved.width, fields_.sorts(), fields_.here()) +
+                   "(rule (=> (and (Begin {3}) (Less r q) (More v w) {4}) (Tick {3} s o q c m w)))\n"
+                   "(rule (=> (and (Begin {3}) (Less r q) (not {4})) (Tick {3} s o q c m v)))\n",
+                   fields_.timer.width, fields_.moved.width, fields_.sorts(), fields_.here(), timed()) +
                text;
     }
 
-    std::string facts() const {
+    /// And the orders to the motion that they name.
+    std::string facts() {
+        const std::vector<Case> cases = cases_of_steps();
+        for (const Case& one : cases) {
+            const ManualMotions& motion = executed_in(one).motion;
+            if (std::find(orders_.begin(), orders_.end(), motion) == orders_.end()) orders_.push_back(motion);
+        }
+        std::set<std::string> facts;
+        for (const Case& one : cases) facts.insert(fact(one));
+        std::string text;
+        for (const std::string& each : facts) text += each;
+        return text;
+    }
+
+    struct Case {
+        unsigned step = 0;
+        bool runs = false;
+        bool counter_zero = false;
+        unsigned image = 0;
+    };
+
+    Registers executed_in(const Case& one) const {
+        return executed(question_.terms, one.step, one.runs, one.counter_zero, one.image);
+    }
+
+    std::vector<Case> cases_of_steps() const {
         std::set<unsigned> steps;
         for (const ManualTerm& term : question_.terms) {
             steps.insert(term.state);
             if (!term.is_flexmac && term.names_next) steps.insert(term.next_state);
         }
         steps.insert(0);
-        std::set<std::string> facts;
+        std::vector<Case> cases;
         for (const unsigned step : steps) {
             for (unsigned image = 0; image < 256; ++image) {
                 if ((image & ~question_.used) != 0) continue;
                 for (unsigned zeros = 0; zeros < 4; ++zeros)
-                    facts.insert(fact(step, (zeros & 1U) != 0, (zeros & 2U) != 0, image));
+                    cases.push_back({step, (zeros & 1U) != 0, (zeros & 2U) != 0, image});
             }
         }
-        std::string text;
-        for (const std::string& fact : facts) text += fact;
-        return text;
+        return cases;
     }
 
-    std::string fact(unsigned step, bool runs, bool counter_zero, unsigned image) const {
-        const Registers done = executed(question_.terms, step, runs, counter_zero, image);
+    std::string fact(const Case& one) const {
+        const Registers done = executed_in(one);
         unsigned operation = 0;
         unsigned value = 0;
         if ((done.output_byte & 0x40U) != 0) {
@@ -255,17 +319,20 @@ class Clauses {
         }
         const bool presets = done.timer_preset != 0;
         const unsigned left = times_moves() ? done.timer_preset : (presets ? 1U : 0U);
-        const auto motion = static_cast<unsigned>(fields_.tells_motion ? done.motion : ManualMotion::keeps);
-        return fmt::format("(rule (Scan {} {} {} {} {} {} {} {} {} {} {} {}))\n", bits(step, 6), bit(runs),
-                           bit(counter_zero), bits(image & told_, 8), bits(done.next_step, 6), bit(presets),
-                           bits(left, fields_.timer.width), bit(done.wrote),
-                           bits(done.output_byte & 0x0FU, 4), bits(operation, 2),
-                           bits(value, fields_.counter.width), bits(motion, 2));
+        const auto found = std::find(orders_.begin(), orders_.end(), done.motion) - orders_.begin();
+        const unsigned orders = fields_.tells_motion ? static_cast<unsigned>(found) : 0;
+        return fmt::format("(rule (Scan {} {} {} {} {} {} {} {} {} {} {} {}))\n", bits(one.step, 6),
+                           bit(one.runs), bit(one.counter_zero), bits(one.image & told_, 8),
+                           bits(done.next_step, 6), bit(presets), bits(left, fields_.timer.width),
+                           bit(done.wrote), bits(done.output_byte & 0x0FU, 4), bits(operation, 2),
+                           bits(value, fields_.counter.width), bits(orders, orders_width()));
     }
 
     Question question_;
     Fields fields_;
-    unsigned told_;  ///< bits of HW_INP that a scan's facts tell apart
+    unsigned told_;                      ///< bits of HW_INP that a scan's facts tell apart
+    std::vector<ManualMotions> orders_;  ///< what the orders of a scan do to the motion, each once
+    std::string facts_;
 };
 
 constexpr const char* kClausesHeader =
@@ -279,7 +346,7 @@ constexpr const char* kClausesHeader =
 ; IS REACHABLE. The next scan may come after any time, so WHENEVER is broken as soon as a scan leaves its deadline open.
 )";
 
-/// From which states no scan leads on to one of the condition.
+/// The states from which no sequence of scans leads to the condition.
 std::string ways_text(const Property& property, const Clauses& clauses) {
     const Fields& fields = clauses.fields();
     const std::string here = fields.here();
@@ -304,7 +371,7 @@ std::string ways_text(const Property& property, const Clauses& clauses) {
         clauses.times_moves() ? here : clauses.with_timer(here, "#b1"), asked);
 }
 
-/// What is remembered is followed along all scans.
+/// The stored facts are updated along all scans.
 std::string watch_text(const Property& property, const Watch& watch, const Clauses& clauses) {
     const Fields& fields = clauses.fields();
     const std::string& name = property.name;

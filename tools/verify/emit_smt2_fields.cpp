@@ -41,7 +41,7 @@ class Conditions {
             case Is::step:
                 return fmt::format("(= {} {})", name(fields_.step), bits(number, 6));
             case Is::moving:
-                return fmt::format("(not {})", is_zero(fields_.motion));
+                return moves();
             case Is::negation:
                 return fmt::format("(not {})", text(condition.operands[0]));
             case Is::all_of:
@@ -58,6 +58,14 @@ class Conditions {
     std::string name(const Field& field) const { return there_ ? field.there : field.here; }
     std::string is_zero(const Field& field) const {
         return fmt::format("(= {} {})", name(field), bits(0, field.width));
+    }
+    std::string moves() const {
+        std::string text = "(or";
+        for (std::uint8_t motion = 0; motion < kManualMotions; ++motion) {
+            if (is_manual_moving(motion))
+                text += fmt::format(" (= {} {})", name(fields_.motion), bits(motion, fields_.motion.width));
+        }
+        return text + ")";
     }
     Names texts(const Condition& condition) const {
         Names texts;
@@ -143,7 +151,7 @@ std::string formula_clause(const Formula& formula, const Fields& fields) {
             return joined("or", parts);
         case Of::odd_of:
             return joined("xor", parts);
-        case Of::held:  // not asked here
+        case Of::held:  // not used here
             break;
     }
     return {};

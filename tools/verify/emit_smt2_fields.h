@@ -5,7 +5,7 @@
 
 #include "emit_question.h"
 
-/// States and conditions as they stand in clauses for Z3.
+/// States and conditions in the syntax of clauses for Z3.
 namespace nplc::verify::smt2 {
 
 using Names = std::vector<std::string>;
@@ -13,7 +13,7 @@ using Names = std::vector<std::string>;
 std::string bits(std::uint32_t value, unsigned width);
 std::string bit(bool value);
 
-/// A part of a state, and what it is called before and after a scan.
+/// A part of a state, and its names before and after a scan.
 struct Field {
     std::string here;
     std::string there;
@@ -21,13 +21,13 @@ struct Field {
     std::string at_power_up() const { return bits(0, width); }
 };
 
-/// What a state is made of.
+/// The parts of a state.
 struct Fields {
     Field step{"s", "t", 6};
     Field outputs{"o", "p", 4};
-    Field timer{"r", "q", 1};  ///< 1 for running, or what is left
+    Field timer{"r", "q", 1};  ///< 1 for running, or the remaining time
     Field counter{"c", "d", 1};
-    Field motion{"m", "n", 2};  ///< only if it is told
+    Field motion{"m", "n", 4};  ///< only if it is told
     Field moved{"v", "w", 1};   ///< only if moves are timed
     bool tells_motion = false;
     bool times_moves = false;

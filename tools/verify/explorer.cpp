@@ -9,7 +9,7 @@ namespace {
 
 using Motor = Place::Motor;
 
-/// A line that works no more is known as lost by then, whatever was to be sent.
+/// By this time a failed line is reported as lost, whatever was pending.
 constexpr std::int32_t kUntilLost = 300;
 
 /// With times: comparisons of zones; to look one up costs as much as kLookUp of them.
@@ -47,7 +47,7 @@ Explorer::Node Explorer::slot_value(const Place& place) const {
 View Explorer::view_after(const Place& place, const Group& group) const {
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     sequencer::apply(group.pending, state);
-    const bool moving = motion_of(place, group) != Motion::none;
+    const bool moving = is_moving(motion_of(place, group));
     return {state.step, state.outputs, state.timer == 0, state.counter == 0, moving};
 }
 
@@ -131,7 +131,7 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     const Place next = after(place, group);
     Zone now = zone;
     if (part.begins || (place.pending && !part.pending)) now.begin_deadline();
-    const bool moves = times_moves_ && next.motion == Motion::to_place;
+    const bool moves = times_moves_ && is_timed(next.motion);
     if (times_moves_ && (!moves || begins_move(group.orders))) now.begin_move();
     if (group.pending.timer_preset != 0 && precision_.times_timer) {
         const PresetRange times = machine_.times_of(group.pending.timer_preset);
@@ -150,7 +150,7 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
         Zone later = now;
         later.elapse(delay, part.pending, moves);
         if (delay.most >= kEndless && machine_.assume() == Assume::driver) {
-            // Scans repeat meanwhile, and the first that sees something new is not idle.
+            // Scans repeat meanwhile, and the first with a new image is not idle
             if (precision_.times_timer && next.runs)
                 later.left.least = std::max(later.left.least, 1 - most_idle(next.motor));
             if (moves) later.moved.most = std::min(later.moved.most, longest_move() + most_idle(next.motor));
@@ -265,7 +265,7 @@ Explorer::Node Explorer::find(const Place& place, const Zone& zone) const {
     return node;
 }
 
-/// Whether all that can have passed can have so in nodes that are known; if not, it is known from now on.
+/// Whether known nodes include all times that can have passed; if not, they are added.
 bool Explorer::is_covered(const Place& place, const Bounds& passed) {
     std::vector<Bounds>& parts = covered_[place.packed()];
     const auto first = std::find_if(parts.begin(), parts.end(),
@@ -282,8 +282,8 @@ bool Explorer::is_covered(const Place& place, const Bounds& passed) {
 void Explorer::add(const Place& place, const Zone& zone, const Origin& origin) {
     const std::uint32_t depth = origin.parent == kNone ? 0 : depths_[origin.parent] + 1;
     if (uses_zones_) work_ += kLookUp;
-    const bool is_line = precision_.deadline != nullptr && zone.left == Bounds{} &&
-                         !(times_moves_ && place.motion == Motion::to_place);
+    const bool is_line =
+        precision_.deadline != nullptr && zone.left == Bounds{} && !(times_moves_ && is_timed(place.motion));
     if (is_line && is_covered(place, zone.passed)) return;
     Node node = is_line ? kNone : find(place, zone);
     if (precision_.guide != nullptr) {
@@ -344,7 +344,7 @@ bool Explorer::is_worn_out() {
     return true;
 }
 
-/// Enough for most tables: memory costs where it is written to.
+/// Enough for most tables: memory is committed only where it is written.
 void Explorer::reserve() {
     constexpr std::size_t kNodes = std::size_t{1} << 17U;
     constexpr std::size_t kEdges = std::size_t{1} << 20U;
@@ -381,7 +381,7 @@ void Explorer::explore(const std::vector<Target>& targets) {
     first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
 }
 
-/// Where a scan of a group leads before any time passes; the motor is left as it was.
+/// The place after a scan of a group, before any time passes; the motor is unchanged.
 Place Explorer::landing(const Place& here, const Group& group) const {
     const Effect& effect = effects_[group.number];
     const sequencer::Pending& pending = group.pending;

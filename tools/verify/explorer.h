@@ -16,7 +16,7 @@
 
 namespace nplc::verify {
 
-/// Where a scan begins: the table's state with the timer running or not, and what the motor may do.
+/// The start of a scan: the table's state with the timer running or not, and the possible motor states.
 struct Place {
     enum class Motor : std::uint8_t {
         free,
@@ -30,7 +30,7 @@ struct Place {
     bool runs = false;  ///< the timer
     Motor motor = Motor::free;
     bool pending = false;          ///< a deadline runs
-    Motion motion = Motion::none;  ///< if the machine tells it
+    Motion motion = Motion::none;  ///< if the machine models motion
     std::uint16_t counter = 0;
 
     /// Of all but the counter; below 1 << kPlainBits if no deadline runs and no motion is told.
@@ -40,10 +40,10 @@ struct Place {
                (static_cast<unsigned>(motion) << 14U);
     }
     static constexpr unsigned kPlainBits = 13;
-    std::uint64_t packed() const { return packed_plain() | (std::uint64_t{counter} << 16U); }
+    std::uint64_t packed() const { return packed_plain() | (std::uint64_t{counter} << 18U); }
 };
 
-/// A scan of a course: where it began, what it did, and the images with which it can have done so.
+/// A scan of a course: its start, its actions, and the images that can cause it.
 struct CourseScan {
     Place place;
     const Group* group = nullptr;
@@ -51,7 +51,7 @@ struct CourseScan {
     View view;                  ///< after it
     std::uint16_t counter = 0;  ///< after it
     Bounds delay;               ///< to the next scan
-    bool idle = false;          ///< it did nothing: it may be repeated with the same image
+    bool idle = false;          ///< no effect: it may be repeated with the same image
     bool next_runs = false;     ///< the timer, when the next scan begins
     bool begins = false;        ///< a deadline, with this scan
 };
@@ -65,11 +65,11 @@ inline ImageSet images_of_lost_link() {
 
 class Explorer;
 
-/// A wanted scan: images with which it ends in a view.
+/// A target scan: the images with which it ends in a view.
 struct Target {
     const Condition* condition = nullptr;
     bool negated = false;
-    const Condition* without = nullptr;  ///< and this does not hold
+    const Condition* without = nullptr;  ///< and this is false
     const Condition* from = nullptr;     ///< only scans of which this holds count as outside of the target
     ImageSet images(const View& view) const {
         ImageSet set = images_where(*condition, view);
@@ -83,8 +83,8 @@ struct Precision {
     bool times_timer = false;      ///< else it may end at any time
     bool knows_lost_link = false;  ///< else a lost link is any ERROR
     bool keeps_edges = false;      ///< for ways back and courses
-    /// While a scan sees ERROR, a lost link may come back; the gateway then stops the motor before it scans.
-    /// False leaves courses out: nothing is proved by it.
+    /// While a scan sees ERROR, a lost link may be restored; the gateway then stops the motor before it
+    /// scans. False leaves courses out, and so proves nothing.
     bool waits_for_line = true;
     const Property* deadline = nullptr;  ///< a WHENEVER or a NEVER .. WHILE to be broken
     std::size_t most_states = 2'000'000;
@@ -98,7 +98,7 @@ struct FreeMemory {
     void operator()(void* memory) const { std::free(memory); }
 };
 
-/// Explores breadth first all that can be reached, within the bound.
+/// Breadth-first exploration of all reachable states, within the bound.
 class Explorer {
   public:
     using Node = std::uint32_t;
@@ -111,22 +111,22 @@ class Explorer {
     bool complete() const { return complete_; }
     std::size_t size() const { return places_.size(); }
     const Place& place(Node node) const { return places_[node]; }
-    /// How many scans lead there at the least.
+    /// The minimum number of scans to reach it.
     std::uint32_t depth(Node node) const { return depths_[node]; }
     const Machine& machine() const { return machine_; }
     std::uint64_t steps_begun() const { return steps_begun_; }
 
-    /// The first way to hit a target, or to miss the deadline; empty if there is none.
+    /// The shortest course to a target, or to a missed deadline; empty if there is none.
     std::vector<CourseScan> course_to(std::size_t target) const;
     std::vector<CourseScan> course_to_missed_deadline() const;
     bool hit(std::size_t target) const { return hits_[target].node != kNone; }
     bool missed_deadline() const { return missed_.node != kNone; }
-    /// It is missed by the last scan's end, else by the next one.
+    /// Missed by the end of the last scan, else by the next one.
     bool missed_at_end() const { return missed_at_end_; }
     /// The scans before the one that begins in `node`.
     std::vector<CourseScan> course_to_node(Node node) const;
 
-    /// A scan that leads from one place to another. Those of one node stand together, in the order of nodes.
+    /// A transition by a scan. Those of one node are consecutive, in the order of nodes.
     struct Edge {
         Node from = kNone;
         Node to = kNone;
@@ -144,17 +144,17 @@ class Explorer {
     const Edge& first_edge_with(const Group& group) const;
     View view_after(const Place& place, const Group& group) const;
     static View view_of(const Place& place) {
-        return {place.step, place.outputs, !place.runs, place.counter == 0, place.motion != Motion::none};
+        return {place.step, place.outputs, !place.runs, place.counter == 0, is_moving(place.motion)};
     }
-    /// With which a scan that begins there can be.
+    /// The images with which a scan that begins there is possible.
     ImageSet allowed(const Place& place) const { return allowed_[static_cast<std::size_t>(place.motor)]; }
-    /// With which the scan of an edge can be.
+    /// The images with which the scan of an edge is possible.
     ImageSet images_of(const Edge& edge) const { return images_of(edge, allowed(place(edge.from))); }
     ImageSet images_of(const Edge& edge, const ImageSet& allowed_there) const {
         return narrowed(group_of(edge).images & allowed_there, place(edge.to));
     }
     CourseScan scan_of(const Edge& edge, const ImageSet& images) const;
-    /// From each node, how many scans lead to the end of one of `target` at the least; kFar if none do. Needs
+    /// For each node, the minimum number of scans to the end of one of `target`; kFar if unreachable. Needs
     /// all edges.
     std::vector<std::uint32_t> distances_to(const Target& target);
     static constexpr std::uint32_t kFar = ~std::uint32_t{0};
@@ -166,7 +166,7 @@ class Explorer {
                (view.moving ? 256U : 0U);
     }
     static constexpr std::size_t kSurroundings = 512;
-    /// It does nothing.
+    /// It has no effect.
     bool is_idle(const Place& place, const Group& group) const;
 
     struct Stuck {
@@ -178,11 +178,11 @@ class Explorer {
     /// Scans as where they begin and their group, whatever the times.
     using Scans = std::unordered_set<std::uint64_t>;
     static std::uint64_t scan_key(const Place& place, std::uint32_t group) {
-        return place.packed() << 32U | group;
+        return place.packed() << 30U | group;
     }
     Scans scans() const;
-    /// The first scan outside of `target` from which none leads there, by the `distances` to it; `only` of
-    /// these.
+    /// The first scan outside of `target` that cannot lead to it, by the `distances`; only among `only`, if
+    /// given.
     Stuck first_stuck(const Target& target, const std::vector<std::uint32_t>& distances,
                       const Scans* only = nullptr) const;
     std::vector<CourseScan> course_to(const Stuck& stuck) const;
@@ -225,7 +225,7 @@ class Explorer {
     bool keeps_too_long(const Place& place, const Zone& zone, const Group& group, const View& view,
                         const ImageSet& images) const;
     std::array<Part, 2> parts(const Place& place, const View& view, const ImageSet& images) const;
-    /// Whether the scan after one that left the motor so may be as late as a lost link is known.
+    /// Whether the scan after this motor state may be delayed until a lost link is detected.
     bool may_wait_for_line(Place::Motor motor) const;
     /// Between repeated scans.
     std::int32_t most_idle(Place::Motor motor) const;
@@ -234,7 +234,7 @@ class Explorer {
     ImageSet narrowed(const ImageSet& images, const Place& next) const;
     void find_effects();
     void reserve();
-    /// All the work that times may make has been done: not all is explored.
+    /// The limit of work on times is reached: the exploration is incomplete.
     bool is_worn_out();
     Place landing(const Place& here, const Group& group) const;
     std::vector<Node> nodes_before(const Target& target) const;

@@ -9,7 +9,7 @@
 #include "verify/checks.h"
 #include "walk.h"
 
-/// The built-in checks, by what they look at.
+/// The built-in checks, grouped by subject.
 namespace nplc::verify {
 
 /// A check that found something.
@@ -17,7 +17,7 @@ struct Finding {
     std::string_view code;
     std::uint8_t step = 0;
     std::string reason;
-    std::vector<CourseScan> way;  ///< that shows it; may be empty
+    std::vector<CourseScan> way;  ///< the course that shows it; may be empty
 };
 
 /// Courses to places; with `excluded`, others than these.
@@ -26,7 +26,7 @@ class Courses {
     explicit Courses(const Explorer& explorer, Excluded* excluded = nullptr)
         : explorer_(explorer), excluded_(excluded) {}
     Excluded* excluded() const { return excluded_; }
-    /// To a node, and on with some scans; nothing if all are excluded.
+    /// A course to a node and on with some scans; empty if all are excluded.
     std::optional<std::vector<CourseScan>> to(Explorer::Node node, std::vector<CourseScan> then = {});
     /// Up to and including the scan of an edge.
     std::optional<std::vector<CourseScan>> with(const Explorer::Edge& edge) {
@@ -39,7 +39,7 @@ class Courses {
     std::optional<Walk> walk_;
 };
 
-/// What the checks look at: everything that can be, with edges.
+/// The input of the checks: all reachable states, with edges.
 struct Subject {
     const Explorer& explorer;
     const Names& names;

@@ -13,7 +13,7 @@ using sequencer::TermView;
 
 constexpr std::size_t kRows = std::size_t{63} * 4;  // steps, timer and counter zero or not
 
-/// Terms that are true together, and the images that make them so.
+/// Terms that are true together, and the images with which they are.
 struct ScanResult {
     Pending pending;
     std::vector<std::uint16_t> senders;

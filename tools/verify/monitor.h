@@ -8,10 +8,10 @@
 
 namespace nplc::verify {
 
-/// Whether a form is judged by what is remembered from scan to scan.
+/// Whether a form is judged by facts stored from scan to scan.
 bool is_remembered(Form form);
 
-/// The shortest course among those explored that breaks such a property; none of the excluded ones.
+/// The shortest counterexample of such a property among the explored courses, without the excluded ones.
 std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer, const Property& property,
                                                        Excluded* excluded = nullptr);
 

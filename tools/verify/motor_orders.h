@@ -6,18 +6,18 @@
 
 #include "sequencer/state.h"
 
-/// What an order of a table means to a motor (001 §5.2.1.4).
+/// The meaning of a table's commands for a motor (001 §5.2.1.4).
 namespace nplc::verify {
 
 enum class OrderKind : std::uint8_t {
     nothing,      ///< neither mode nor motion
     init,         ///< INIT mode, whatever it selects
-    velocity,     ///< runs from now on
-    place,        ///< moves to a place
+    velocity,     ///< runs continuously
+    place,        ///< moves to a position
     holds_place,  ///< position mode, the target stays
     home,
     stop,    ///< V_SOLL = 0
-    speed,   ///< V_SOLL is something again, the mode stays
+    speed,   ///< V_SOLL is nonzero again, the mode stays
     set,     ///< USE_SET
     silent,  ///< a mode that never sets IN_POS
     reset_error,
@@ -31,13 +31,31 @@ std::uint8_t selected_register(const sequencer::MotorOrder& order);
 bool begins_motion(OrderKind kind);
 bool ends_motion(OrderKind kind);
 
-/// Whether the motor was ordered to move and is not known to have ended: `moving` in properties.
+/// What the motor was ordered to do, as far as it decides whether it may move: `moving` in properties. In
+/// velocity, gear and position modes V_SOLL = 0 ends a motion, which goes on when V_SOLL is something again;
+/// a homing and the torque modes do not heed it (001 §4.4). In position mode a new target is a move.
 enum class Motion : std::uint8_t {
-    none,
+    none,  ///< INIT
     to_place,
     endless,
-    disturbed,  ///< to a place, and ERROR was seen since; told only where it counts how long moves last
+    disturbed,  ///< to a place, and for how long is not known: an ERROR was seen, or V_SOLL or the target
+                ///< changed
+    in_place,   ///< in position mode, arrived
+    stopped_in_place,  ///< and V_SOLL is 0
+    halted,            ///< on its way to a place, V_SOLL is 0
+    halted_run,        ///< in velocity mode, V_SOLL is 0
+    homing,
+    homing_disturbed,
+    driven,  ///< in a torque or test mode
 };
+constexpr bool is_moving(Motion motion) {
+    return motion == Motion::to_place || motion == Motion::endless || motion == Motion::disturbed ||
+           motion == Motion::homing || motion == Motion::homing_disturbed || motion == Motion::driven;
+}
+/// `ASSUME moving ENDS WITHIN` speaks of it.
+constexpr bool is_timed(Motion motion) {
+    return motion == Motion::to_place || motion == Motion::homing;
+}
 /// What a scan saw of the motor.
 struct Seen {
     bool in_pos = false;
@@ -46,7 +64,7 @@ struct Seen {
 /// After a scan that saw this and gave these orders.
 Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::MotorOrder> orders);
 
-/// They begin a move to a place, and nothing after it ends it.
+/// They begin a move to a place or a homing, and nothing after it ends it.
 bool begins_move(std::span<const sequencer::MotorOrder> orders);
 
 /// Registers that are 0 whenever they are used, or may be: V1..V8 and V_SOLL count.

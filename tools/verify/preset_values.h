@@ -7,14 +7,14 @@
 #include "explorer.h"
 #include "verify/course.h"
 
-/// One value for each range of presets, so that a course found with ranges can be played.
+/// One value for each range of presets, so that a course found with ranges can be executed.
 namespace nplc::verify {
 
 /// Values that may make the course: counts as the course has them, times at the ends of their ranges. None if
 /// it has different counts of one range; one empty choice if it meets no range.
 std::vector<std::vector<ChosenPreset>> choices_for(const Machine& machine, std::span<const CourseScan> scans);
 
-/// What `preset` is in `chosen`; itself if it is not there.
+/// The value of `preset` in `chosen`; itself if it is not there.
 std::uint16_t chosen_value(std::span<const ChosenPreset> chosen, std::uint16_t preset);
 
 /// The table's bytes, end term and all, with the chosen values.

@@ -21,7 +21,7 @@ struct Operator {
     Kind kind;
 };
 
-/// Loosest first, as in programs.
+/// Lowest precedence first, as in programs.
 constexpr std::array kOperators = {
     Operator{"OR", Kind::any_of},
     Operator{"XOR", Kind::odd_of},
@@ -184,7 +184,7 @@ std::string PropertyParser::shown() const {
                                             : fmt::format("'{}'", token().text.substr(0, 40));
 }
 
-/// What may have been meant by the word at hand, or `otherwise`.
+/// A guess of the intended word, or `otherwise`.
 std::string PropertyParser::guess(std::span<const std::string> known, std::string_view otherwise) const {
     std::vector<std::string_view> names;
     for (const std::string& name : known) {
@@ -272,6 +272,18 @@ bool PropertyParser::parse_stable(Assumption& assumption) {
            parse_time(assumption.stable_ms);
 }
 
+/// NEVR Head, IF Head: a word, and then one that cannot follow a condition.
+bool PropertyParser::begins_no_claim() const {
+    if (token().kind != Token::Kind::word || token(1).kind != Token::Kind::word) return false;
+    for (const char* first : {"NOT", "STEP", "ANY"}) {
+        if (at(first)) return false;
+    }
+    for (const char* second : {"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"}) {
+        if (at(second, 1)) return false;
+    }
+    return true;
+}
+
 bool PropertyParser::parse_form(Property& property) {
     if (take("NEVER")) return parse_never(property);
     if (at("ALWAYS") && at("POSSIBLE", 1)) {
@@ -296,19 +308,30 @@ bool PropertyParser::parse_form(Property& property) {
                expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") &&
                parse_condition(property.then);
     }
+    if (begins_no_claim()) {
+        const std::array<std::string, 6> words = {"NEVER",   "ALWAYS", "WHENEVER",
+                                                  "BETWEEN", "AFTER",  "EVERY_SCAN"};
+        return fail(fmt::format(
+            "a claim is expected, not {}; {}", shown(),
+            guess(words,
+                  "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
+                  "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'")));
+    }
     return parse_condition_first(property);
 }
 
 bool PropertyParser::parse_never(Property& property) {
     property.form = Form::never;
     if (!parse_condition(property.condition)) return false;
+    if (at("WITHIN"))
+        return fail("NEVER takes no WITHIN: write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
     if (!take("WHILE")) return true;
     property.form = Form::never_while;
     return parse_condition(property.then) && expect("FOR", "behind WHILE's condition") &&
            parse_time(property.within_ms) && needs_a_time(property);
 }
 
-/// A time of 0 ms is what the same without FOR says.
+/// FOR with 0 ms equals no FOR.
 bool PropertyParser::needs_a_time(const Property& property) {
     return property.within_ms != 0 || fail("FOR takes 1 ms at the least");
 }
@@ -477,6 +500,7 @@ bool PropertyParser::parse_primary(Condition& result) {
 bool PropertyParser::parse_step(Condition& result) {
     std::optional<std::uint8_t> number;
     const std::string_view text = token().text;
+    if (at("=")) return fail("= stands twice: write it once, as in STEP = Idle");
     const bool is_name = token().kind != Token::Kind::number;
     if (!is_name) {
         unsigned value = 0;
@@ -487,6 +511,10 @@ bool PropertyParser::parse_step(Condition& result) {
         number = named(text, names_.steps);
         if (!number && same_word(text, "POWER_UP")) number = std::uint8_t{0};
     }
+    const bool is_group = !number && is_name &&
+                          std::any_of(names_.groups.begin(), names_.groups.end(),
+                                      [&](const StepGroup& group) { return same_word(group.name, text); });
+    if (is_group) return fail(fmt::format("{} is a group of steps: write STEP IN {}", shown(), text));
     if (!number)
         return fail(fmt::format("there is no step {}; {}", shown(),
                                 guess(names_.steps, "a step is a name or 0 to 62")));

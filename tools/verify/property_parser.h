@@ -10,7 +10,7 @@
 
 namespace nplc::verify {
 
-/// Reads properties a token at a time; the first mistake ends it.
+/// Reads properties a token at a time; stops at the first error.
 class PropertyParser {
   public:
     PropertyParser(std::string_view text, const Names& names);
@@ -44,6 +44,7 @@ class PropertyParser {
     bool parse_whenever(Property& property);
     bool parse_only(Property& property);
     bool parse_condition_first(Property& property);
+    bool begins_no_claim() const;
     bool parse_form(Property& property);
     const NamedTime* time_named(const Token& token) const;
     bool parse_time(std::uint32_t& milliseconds);

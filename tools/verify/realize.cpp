@@ -17,7 +17,7 @@ namespace {
 
 using Images = std::vector<std::uint8_t>;
 
-/// What it costs if an input is another in a scan than in the one before.
+/// The cost of a changed input between two scans.
 class ChangeCosts {
   public:
     explicit ChangeCosts(std::size_t scans) : more_(scans + 1) {}
@@ -82,7 +82,7 @@ Images calm_images(std::span<const CourseScan> scans, const ChangeCosts& changes
     return images;
 }
 
-/// Why a time is bounded, and the scans that say so.
+/// The reason for a bound on a time, and the scans it refers to.
 struct Cause {
     enum class Kind : std::uint8_t { delay, timer_runs, timer_ends, move, change, keeps, overdue };
     Kind kind = Cause::Kind::delay;
@@ -91,7 +91,7 @@ struct Cause {
     unsigned input = 0;
 };
 
-/// Times with `later - sooner >= least`, found by letting each be as early as it can.
+/// Solves `later - sooner >= least` for the earliest times.
 class Times {
   public:
     struct Bound {
@@ -132,7 +132,7 @@ class Times {
     }
     std::int64_t operator[](std::size_t i) const { return at_[i]; }
 
-    /// Bounds that follow each other round and ask for more time than there is; once there is no solution.
+    /// Cyclic bounds that need more time than there is; only after solving has failed.
     std::vector<Bound> round() const {
         std::size_t at = last_raised_;
         for (std::size_t i = 0; i < at_.size(); ++i) at = bounds_[raised_by_[at]].sooner;
@@ -191,7 +191,7 @@ void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t 
     std::size_t ordered = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
         const Group& group = *scans[k].group;
-        if (scans[k].place.motion == Motion::to_place && !group.in_pos && !group.disturbs) {
+        if (is_timed(scans[k].place.motion) && !group.in_pos && !group.disturbs) {
             const Cause cause{Cause::Kind::move, ordered, k};
             times.at_most(ordered, k, move_ms, cause);
             if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle, cause);
@@ -255,7 +255,7 @@ std::string words_of(const Times::Bound& bound, std::span<const CourseScan> scan
     return "";
 }
 
-/// Of times that cannot be: the scans that conflict. Delays that are alike are told once.
+/// For unsolvable times: the scans that conflict. Equal delays are listed once.
 Conflict conflict_of(const std::vector<Times::Bound>& round, std::span<const CourseScan> scans) {
     Conflict conflict{.first = scans.size() - 1, .last = 0, .words = {}};
     std::set<std::string> told;
@@ -299,7 +299,7 @@ Course lay_out(std::span<const CourseScan> scans, const Images& images, const Ti
     return course;
 }
 
-/// Plays the course on the engine itself; false if it does not go as the explorer thought.
+/// Executes the course on the engine itself; false if the result differs from the explorer's.
 bool play(const sequencer::Table& table, std::span<const CourseScan> scans, Course& course) {
     sequencer::Engine engine(table);
     std::size_t k = 0;

@@ -11,7 +11,7 @@
 
 namespace nplc::verify {
 
-/// What must have passed between two scans.
+/// The minimum time between two scans.
 struct Overdue {
     std::size_t from = 0;  ///< index of the scan
     std::size_t to = 0;    ///< the number of scans is the one that would follow the last
@@ -26,14 +26,14 @@ struct Realization {
     std::span<const ChosenPreset> presets{};  ///< values of the explorer's ranges; the table has them
 };
 
-/// A course that was played, or why it cannot be.
+/// A course that was executed, or the reason why it is impossible.
 struct Attempt {
     std::optional<Course> course{};
     Conflict conflict{};
 };
 
-/// Chooses images and times for a course of the explorer so that timer, delays and debouncing allow it, and
-/// plays it on the engine.
+/// Chooses images and times for a course of the explorer that satisfy timer, delays and debouncing, and
+/// executes it on the engine.
 Attempt realize(const Realization& how, std::span<const CourseScan> scans,
                 const std::optional<Overdue>& overdue);
 

@@ -122,7 +122,7 @@ std::string helpers_text(const Course& course, const Names& names) {
     return text;
 }
 
-/// When, and in which scan, the course shows what it is for.
+/// The time and scan in which the course shows the result.
 std::string end_text(const Result& result) {
     const Course& course = *result.course;
     std::uint64_t time = 0;

@@ -42,7 +42,7 @@ constexpr std::size_t kSteady = 2;
 constexpr std::size_t kLong = 3;
 constexpr std::uint32_t kSteadyMs = 3;
 
-/// What a scan can be, wherever it begins.
+/// A kind of scan, wherever it begins.
 struct ScanKind {
     Levels levels = 0;  ///< with which it can be made
     Levels hits = 0;
@@ -54,7 +54,7 @@ struct ScanKind {
     std::uint32_t preset_most = 0;
 };
 
-/// Where the next scan begins, with the timer running or not.
+/// The start of the next scan, with the timer running or not.
 struct Landing {
     Explorer::Node running = Explorer::kNone;
     Explorer::Node zero = Explorer::kNone;
@@ -64,7 +64,7 @@ struct Choice {
     std::uint32_t kind = 0;
     std::uint32_t group = 0;
     bool idle = false;
-    bool unsure = false;  ///< it may come too late: a move has ended by then
+    bool unsure = false;  ///< it may be too late: a move may have ended by then
     Landing landing{};
     std::uint32_t others = 0;  ///< the first of the further counts of a range, and 1; 0 for none
 };
@@ -91,7 +91,7 @@ class Search {
         first_choice_.push_back(choices_.size());
     }
 
-    /// Whatever the levels at power-up are, a course can begin with others.
+    /// Courses can begin with levels other than those at power-up.
     bool can_from_power_up() {
         while (sweep()) {
         }
@@ -131,7 +131,7 @@ class Search {
             if (choice == kNone) {
                 choice = choices_.size();
                 const Group& group = ways_.group_of(edge);
-                const bool sees_no_end = here.motion == Motion::to_place && !group.in_pos && !group.disturbs;
+                const bool sees_no_end = is_timed(here.motion) && !group.in_pos && !group.disturbs;
                 choices_.push_back({.kind = kind_of(here, group, lost),
                                     .group = edge.group,
                                     .idle = ways_.is_idle(here, group),

@@ -14,7 +14,7 @@
 namespace nplc::verify {
 namespace {
 
-/// What stands in a property's text after `begin` and before the first of `ends`.
+/// The part of a property's text after `begin` and before the first of `ends`.
 std::string part_of(const std::string& text, std::string_view begin,
                     std::initializer_list<std::string_view> ends) {
     std::string upper = text;

@@ -4,13 +4,13 @@
 
 #include "explorer.h"
 
-/// Proofs of nothing: what a property asks about never is.
+/// Vacuous proofs: the condition of a property never occurs.
 namespace nplc::verify {
 
-/// A target that is hit if there is something to judge; for forms that look at one scan.
+/// A target that is reached if there is something to judge; for forms about one scan.
 Target subject_of(const Property& property);
 
-/// Why a property that is proved says nothing; empty if it says something. `is_met`: its subject was hit.
+/// Why a proved property is vacuous; empty if it is not. `is_met`: its subject was reached.
 std::string why_vacuous(const Explorer& explorer, const Property& property, bool is_met);
 
 }  // namespace nplc::verify

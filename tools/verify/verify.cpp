@@ -111,10 +111,10 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
 
 using CheckFunction = std::vector<Finding> (*)(const Subject&);
 
-/// For each scan, to ask some checks again.
+/// For each scan: to repeat some checks.
 constexpr std::uint64_t kWorkOfChecks = 8;
 
-/// What some checks found, and how to ask them again.
+/// The findings of some checks, and how to repeat these.
 struct Found {
     CheckFunction function;
     Finding finding;
@@ -164,7 +164,8 @@ Result result_of(const Decider& decider, const Check& check, const Found& found,
     return result;
 }
 
-/// Where ERROR lasts for ever nothing leaves a fault step, or it comes back: that is one mistake.
+/// Where ERROR lasts forever no way leads out of a fault step, or the step is entered again: that is one
+/// mistake.
 void drop_what_errors_explain(std::vector<Found>& findings) {
     std::uint64_t steps = 0;
     for (const auto& [function, finding] : findings) {
@@ -215,7 +216,7 @@ ImageSet permitted_by(const std::vector<Assumption>& assumptions) {
     return images;
 }
 
-/// 0 for whenever the motor likes.
+/// 0: no limit.
 std::uint32_t move_ms_of(const std::vector<Assumption>& assumptions) {
     std::uint32_t least = 0;
     for (const Assumption& assumption : assumptions) {
@@ -224,7 +225,7 @@ std::uint32_t move_ms_of(const std::vector<Assumption>& assumptions) {
     return least;
 }
 
-/// What the orders do to the motor is no matter of `any`: checks take what the gateway and a motor can do.
+/// `any` does not model the commands' effects on the motor: checks use what the gateway and a motor can do.
 void judge_checks_of_driver(const sequencer::Table& table, const Names& names, const Options& options,
                             std::vector<Result>& results) {
     Options driver = options;

@@ -11,20 +11,20 @@
 
 namespace nplc::verify {
 
-/// Follows courses, breadth first, with what is remembered of them: a number below 64. They begin at power-up
-/// or with scans that make something to be remembered whatever was before them.
+/// Follows courses, breadth first, with a state of their own: a number below 64. They begin at power-up or
+/// with scans that set the state independently of earlier ones.
 class Walk {
   public:
     using Memory = std::uint16_t;
 
-    /// With `excluded` courses that are there are not followed.
+    /// With `excluded`, excluded courses are not followed.
     explicit Walk(const Explorer& explorer, Excluded* excluded = nullptr)
         : explorer_(explorer), excluded_(excluded), known_(excluded == nullptr ? explorer.size() : 0) {
         reached_.reserve(4 * explorer.size());
     }
 
     void begin_at_power_up(Memory memory) { add({.node = 0, .memory = memory}); }
-    /// Scans are to be named in the order of edges.
+    /// Scans must be added in the order of edges.
     void begin_with(const Explorer::Edge& edge, Memory memory) {
         sources_.push_back(
             {.node = edge.to, .memory = memory, .edge = index_of(edge), .depth = depth_after(edge)});
@@ -35,13 +35,13 @@ class Walk {
         sources_.back().images = kept(images);
     }
 
-    /// A scan that can follow what is remembered.
+    /// A scan that can follow in this state.
     class Scan {
       public:
         const Explorer::Edge& edge;
         Memory memory;
         ImageSet images() const { return walk_.explorer_.images_of(edge); }
-        /// What is remembered after it, of all its images or of some.
+        /// The state after it, for all its images or for some.
         void go_on(Memory then) const { walk_.go_on(*this, then, kNone); }
         void go_on(const ImageSet& some, Memory then) const {
             if (some.none() || (walk_.excluded_ == nullptr && walk_.knows(edge.to, then))) return;
@@ -67,7 +67,7 @@ class Walk {
         std::uint32_t at_;
     };
 
-    /// `pass(scan)` is called for each scan that can follow what is remembered.
+    /// `pass(scan)` is called for each scan that can follow in the state.
     template <class Pass>
     void all(const Pass& pass) {
         if (excluded_ != nullptr) return all_but_excluded(pass);
@@ -107,8 +107,8 @@ class Walk {
         std::uint32_t depth = 0;
         std::uint32_t parent = kNone;
         Excluded::State state = 0;
-        bool is_before = false;  ///< what is to be remembered has not begun
-        bool begins = false;     ///< the scan to it began what is remembered
+        bool is_before = false;  ///< the state has not begun yet
+        bool begins = false;     ///< the scan to it began the state
     };
 
     /// The scans before those that begin something are followed, too.

@@ -7,7 +7,7 @@
 
 namespace nplc::verify {
 
-/// Longer than anything that is waited for.
+/// Longer than any timeout.
 inline constexpr std::int32_t kEndless = 500'000'000;
 
 struct Bounds {
@@ -25,9 +25,9 @@ struct Bounds {
     }
 };
 
-/// All that can be at one place of what is left of the timer, what has passed of a deadline and for how long
-/// a move has lasted, in whole milliseconds. All run with the same time, so sums and differences say how they
-/// belong together. What is not in use is 0, and all bounds are as tight as they can be.
+/// All possible combinations, at one place, of the timer's remaining time, the time since a deadline began
+/// and the duration of a move, in whole milliseconds. All change at the same rate, so sums and differences
+/// describe how they depend on each other. Unused ones are 0, and all bounds are as tight as possible.
 struct Zone {
     Bounds left;
     Bounds passed;
@@ -50,13 +50,13 @@ struct Zone {
     void preset(std::int32_t least, std::int32_t most) { set_left({least, most}); }
     void stop_timer() { set_left({}); }
     void begin_deadline() { set_passed({}); }
-    /// What has passed beyond `limit` makes no difference.
+    /// Time beyond `limit` is not distinguished.
     void cut_passed(std::int32_t limit) { set_passed({limit, limit}); }
     void begin_move() { set_moved({}); }
-    /// Nor does for how long a move has lasted beyond it.
+    /// Nor is the duration of a move beyond it.
     void cut_moved(std::int32_t limit) { set_moved({limit, limit}); }
 
-    /// Time passes; what is not in use stays 0.
+    /// Time passes; unused values stay 0.
     void elapse(const Bounds& delay, bool pending, bool moving) {
         left = left - delay;
         if (pending) {

@@ -15,11 +15,12 @@ namespace {
 namespace core = hal_mcu::cortex_m;
 using hal_mcu::EndCause;
 
-constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until the watchdog bites
-/// Two slots of the store looked at and one loaded take 0.7 s at most, on a serial memory's line.
+constexpr base::Milliseconds kBeyondLongestWait{500};  ///< watchdog timeout beyond a scan's longest wait
+/// Reading two slots of the store and loading one takes 0.7 s at most over a serial memory's line.
 constexpr base::Milliseconds kStartUp{3'000};
 
-/// With the run before not ended by us it was the watchdog's second bite, or a reset that looks the same.
+/// If the previous run was not ended by the firmware, the cause was the watchdog's second timeout or a reset
+/// that looks the same.
 gateway::StartCause start_cause(bool for_service) {
     const bool bitten = take_watchdog_reset() || run_marker().is_set();
     if (bitten && !crash_record().valid()) crash_record().set(EndCause::unrecorded, 0);
@@ -28,26 +29,30 @@ gateway::StartCause start_cause(bool for_service) {
     return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
 }
 
-void note_crash(gateway::Gateway& sequence) {
-    if (!crash_record().valid()) return;
-    sequence.note(gateway::Event::crashed, static_cast<std::uint16_t>(crash_record().cause()));
-    sequence.note(gateway::Event::crashed_at, static_cast<std::uint16_t>(crash_record().code_address()));
+void note_crash(gateway::Gateway& sequence, gateway::SettingsManager& settings) {
+    const bool has_crashed = crash_record().valid();
+    const auto cause = static_cast<std::uint16_t>(crash_record().cause());
+    const auto address = static_cast<std::uint16_t>(crash_record().code_address());
+    settings.keep_mark(has_crashed);
+    if (!has_crashed) return;
+    sequence.note(gateway::Event::crashed, cause);
+    sequence.note(gateway::Event::crashed_at, address);
     crash_record().clear();
 }
 
-/// Longer than a scan may wait for the motor, which a user can change.
+/// Longer than a scan's longest wait for the motor, which is a setting.
 base::Milliseconds watchdog_time(const gateway::SettingsManager& settings) {
     return base::Milliseconds(settings.get(store::Setting::longest_wait)) + kBeyondLongestWait;
 }
 
-/// Until an interrupt has brought something; a millisecond at the most.
+/// Sleeps until an interrupt; a millisecond at the most.
 void rest() {
     core::forbid_interrupts();
     if (!has_received()) core::sleep();
     core::allow_interrupts();
 }
 
-/// The answer to the reset command shall leave the line, if it takes it.
+/// Waits until the answer to the reset command has been sent, with a timeout.
 [[noreturn]] void restart(const Parts& parts) {
     constexpr base::Milliseconds kLongestAnswer{20};
     const base::Instant asked = parts.clock.now();
@@ -56,12 +61,12 @@ void rest() {
     core::reset();
 }
 
-/// Memory of an object that is made at the start and never ends. Cleared before, so that its members that
-/// begin with 0 take no code of their own.
+/// Memory of an object that is constructed at the start and never destroyed. Cleared before construction, so
+/// that members initialized with 0 need no code.
 template <class T>
 union StartedObject {
     constexpr StartedObject() {}
-    ~StartedObject() {}  // NOLINT: never: the firmware does not end
+    ~StartedObject() {}  // NOLINT: never called: the firmware does not end
     template <class... Arguments>
     T& make(Arguments&&... arguments) {
         std::memset(static_cast<void*>(this), 0, sizeof(*this));
@@ -74,7 +79,7 @@ StartedObject<gateway::SettingsManager> settings_memory;
 StartedObject<gateway::Controller> controller_memory;
 StartedObject<motor::AnyDriver> driver_memory;
 
-// Apart from the loop, these need no stack while it runs.
+// Not inlined, so that their stack is not part of the main loop.
 
 [[gnu::noinline]] gateway::SettingsManager& read_settings(const Parts& parts) {
     gateway::SettingsManager& settings = settings_memory.make(parts.storage, parts.settings_area);
@@ -99,7 +104,7 @@ StartedObject<motor::AnyDriver> driver_memory;
                                                              start_cause(parts.for_service));
     if constexpr (gateway::FirmwarePart::kIsThere)
         controller.registers().firmware().attach(firmware_receiver());
-    note_crash(controller.sequence());
+    note_crash(controller.sequence(), settings);
     controller.tables().start(parts.clock.now());
     return controller;
 }

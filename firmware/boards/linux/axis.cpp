@@ -12,7 +12,7 @@ namespace {
 using gateway::SafeReason;
 using store::Setting;
 
-/// Marks of what is watched; serial lines have the first.
+/// Event loop marks; serial lines have the first one.
 constexpr std::uint32_t kSerialLines = 0;
 constexpr std::uint32_t kUserServer = 1;
 constexpr std::uint32_t kFaces = 2;
@@ -20,14 +20,14 @@ constexpr std::uint32_t kFirstLine = 3;
 
 constexpr base::Milliseconds kBetweenTries{500};
 constexpr base::Microseconds kPace{250};
-/// Between two reads of the motor's status while nothing is under way.
+/// Read interval of the motor's status while nothing is in progress.
 constexpr base::Milliseconds kUnwatched{5};
-/// Until the store is done, for a reset.
+/// Poll interval for the end of a store operation before a reset.
 constexpr base::Milliseconds kBetweenLooks{1};
 
 }  // namespace
 
-/// The levels may have been set anew since the start.
+/// The safe levels may have been changed since the start.
 Axis::~Axis() {
     if (controller_) pins_.set_safe(controller_->sequence().settings().safe_outputs);
 }
@@ -38,7 +38,7 @@ void Axis::open(const std::string& state_directory, const BoardStart& board, bas
     begin(now);
 }
 
-/// Outputs first, at their safe levels, as far as the settings that tell them are to be had.
+/// Outputs first, at their safe levels, as far as the settings with these levels can be read.
 void Axis::begin(base::Instant now) {
     missing_ = {};
     open_store(now);
@@ -61,8 +61,8 @@ void Axis::begin(base::Instant now) {
     watch_all();
 }
 
-/// Only what is missing. Whatever comes makes a new start, since settings, safe levels or the port depend on
-/// it.
+/// Retries only the missing resources. If one becomes available the axis starts again, since settings, safe
+/// levels or the port depend on it.
 void Axis::try_again(base::Instant now) {
     try_at_ = now + kBetweenTries;
     const Missing before = missing_;
@@ -82,7 +82,7 @@ SafeReason Axis::missing_reason() const {
     return missing_.store.empty() ? SafeReason::no_port : SafeReason::no_store;
 }
 
-/// Once for each reason, however often it is tried.
+/// Logs each reason once, over all retries.
 void Axis::note_missing(std::string& what, const std::string& why) {
     what = why;
     if (why.empty() || !reported_missing_.insert(why).second) return;
@@ -105,7 +105,7 @@ void Axis::open_pins() {
         note_missing(missing_.lines, error);
 }
 
-/// A line that cannot be had is a lost link, and looked for by itself.
+/// A line that cannot be opened counts as a lost link and is retried separately.
 void Axis::open_motor() {
     motor_.open(config_.name, config_.motor, setting(Setting::motor_baud));
     if (!config_.motor.mactalk_port.is_there()) return;
@@ -142,16 +142,16 @@ void Axis::block_start() {
         case AutostartPermission::given:
             return;
         case AutostartPermission::first_run:
-            return sequence.wait_for_first_run();
+            return sequence.wait_for_mark(SafeReason::not_started);
         case AutostartPermission::after_crash:
-            return sequence.block_start(SafeReason::watchdog);
+            return sequence.wait_for_mark(SafeReason::watchdog);
         case AutostartPermission::bad_mark:
         case AutostartPermission::lost:
-            return sequence.block_start(SafeReason::bad_run_mark);
+            return sequence.wait_for_mark(SafeReason::bad_run_mark);
     }
 }
 
-/// A table that cannot run leaves the axis stopped, and its port open for another one.
+/// With a table that cannot run the axis stays stopped, and its port is open for another table.
 void Axis::load_table(base::Instant now) {
     const LoadedTable loaded = load_first_table(controller_->tables(), *settings_, config_, now);
     if (!loaded.fault.empty()) {
@@ -170,7 +170,7 @@ void Axis::tell_stored_settings() {
                 other.name, other.stored, other.configured));
 }
 
-/// As after a power-up.
+/// Restarts the axis as after a power-up.
 void Axis::reset(base::Instant now) {
     journal_.write(LogLevel::notice, "reset over the user's port");
     if (store_.is_open()) cause_ = gateway::StartCause::power_up;
@@ -185,10 +185,17 @@ void Axis::note_running(base::Instant now) {
     controller_->sequence().withdraw(SafeReason::bad_run_mark, now);
 }
 
-void Axis::keep_permission() {
-    if (controller_->sequence().run_state() != gateway::RunState::stopped) store_.note_run();
-    if (const std::string error = store_.look(); !error.empty())
-        journal_.write(LogLevel::error, error + "; the next start waits for `nanoctl run`");
+/// A run waits for it before its first scan; one that was stopped meanwhile has been commanded all the same.
+void Axis::give_permission(base::Instant now) {
+    gateway::Gateway& sequence = controller_->sequence();
+    is_giving_ = is_giving_ || sequence.wants_mark();
+    if (!is_giving_) return;
+    const auto outcome = store_.give_permission(now);
+    is_giving_ = !outcome.has_value();
+    if (!outcome) return;
+    if (outcome->empty()) return sequence.mark_run();
+    journal_.write(LogLevel::error, *outcome + "; it has not started, `nanoctl run` again");
+    if (sequence.wants_mark()) sequence.refuse_run_mark();
 }
 
 void Axis::note_orderly_end() {
@@ -210,7 +217,7 @@ void Axis::watch_all() {
     user_.watch_server(*loop_, mark_ + kUserServer);
 }
 
-/// The motor's own MacTalk port is not among them: it is read when a client's message waits for its answer.
+/// Without the motor's own MacTalk port: it is polled while a client waits for its answer.
 void Axis::watch_ports() {
     unwatched_until_ = base::kNever;
     motor_.watch(*loop_, mark_);
@@ -224,7 +231,7 @@ void Axis::note_readable(std::uint32_t mark) {
     if (which == kSerialLines) line_readable_ = true;
 }
 
-/// While the motor's line was read a moment ago, as it is when nothing is under way.
+/// The motor's line was read recently, as it is while nothing is in progress.
 bool Axis::is_edge_alone(base::Instant now) const {
     return pins_.has_edges() && !line_readable_ && motor_.was_read_since(now - kUnwatched);
 }
@@ -234,7 +241,7 @@ void Axis::look_at_user(base::Instant now) {
     user_.look(*controller_, {address(Setting::gateway_address), address(Setting::motor_address)}, now);
 }
 
-/// After an edge the scan comes first, and its orders leave before the motor's status is read.
+/// After an input edge the scan comes first, and its orders are sent before the motor's status is read.
 void Axis::poll_controller(base::Instant now) {
     const bool hurries = is_edge_alone(now);
     line_readable_ = false;
@@ -256,7 +263,7 @@ void Axis::serve(base::Instant now) {
     if (is_back) watch_ports();
     watch_or_wait(now);
     watch_pins(now);
-    keep_permission();
+    give_permission(now);
     if (const auto news = faces_.seat().take_news())
         journal_.write(LogLevel::notice,
                        fmt::format("operator: {} took over from {}", news->by.name, news->from.name));
@@ -264,8 +271,8 @@ void Axis::serve(base::Instant now) {
     if (controller_->reset_asked() && !store_.is_busy()) reset(now);
 }
 
-/// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
-/// every few milliseconds instead of at every byte: an edge or a message wakes the program all the same.
+/// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is in progress it is read
+/// every few milliseconds instead of at every byte; an edge or a message still wakes the program.
 void Axis::watch_or_wait(base::Instant now) {
     const bool rested = unwatched_until_ != base::kNever;
     const bool is_quiet = motor_.needs_no_watch();
@@ -284,7 +291,7 @@ void Axis::watch_pins(base::Instant now) {
 }
 
 base::Instant Axis::next(base::Instant now) {
-    if (controller_->reset_asked()) return now + kBetweenLooks;
+    if (controller_->reset_asked() || is_giving_) return now + kBetweenLooks;
     base::Instant next = controller_->next_poll(now, motor_.next_poll(now));
     next = std::min(
         {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look(now)});

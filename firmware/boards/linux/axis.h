@@ -19,8 +19,8 @@
 
 namespace nplc::boards {
 
-/// One sequencer of this process: its pins, its motor's line, its user's port, its store, and the firmware
-/// that they make a gateway of.
+/// One sequencer of this process: its pins, its motor's line, its user port, its store, and the firmware that
+/// runs on them.
 class Axis {
   public:
     Axis(const AxisConfig& config, Journal& journal, ports::Watchdog& watchdog)
@@ -32,40 +32,40 @@ class Axis {
     Axis(const Axis&) = delete;
     Axis& operator=(const Axis&) = delete;
 
-    /// Has what it can, outputs first. What it cannot do without and cannot have is told, keeps it in its
-    /// safe state, is shown at its port, and is tried again; what it then has makes a start as after a
+    /// Opens all resources, outputs first. A missing required resource is reported, keeps the axis in its
+    /// safe state, is shown at its port and is retried; when it becomes available the axis starts as after a
     /// power-up.
     void open(const std::string& state_directory, const BoardStart& board, base::Instant now);
-    /// kMarks marks, `mark` the first of them.
+    /// Registers kMarks marks from `mark` on.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     static constexpr std::uint32_t kMarks = 9;  ///< serial lines, user's server, faces, six of input lines
-    /// What is watched with `mark` has something to be read.
+    /// The descriptor with `mark` is readable.
     void note_readable(std::uint32_t mark);
 
     void serve(base::Instant now);
-    /// When serve() is wanted at the latest if nothing of what is watched is readable.
+    /// Latest time of the next serve() if no watched descriptor becomes readable.
     base::Instant next(base::Instant now);
 
-    /// The orderly end: outputs safe, motor told to stop; then serve() until it has taken that.
+    /// Orderly shutdown: outputs safe, motor told to stop; then call serve() until has_stopped().
     void begin_end(base::Instant now);
     bool has_stopped() const;
     bool motor_answers() const { return motor_.has_driver() && motor::delivers(motor_.driver().link()); }
-    /// From now on an end that is not orderly is a crash; a start that failed before is none. What cannot be
-    /// marked does not run.
+    /// From now on a disorderly end counts as a crash; a start that failed before does not. An axis that
+    /// cannot be marked does not run.
     void note_running(base::Instant now);
-    /// The end was orderly: the next start is none after a crash.
+    /// The end was orderly: the next start is not one after a crash.
     void note_orderly_end();
 
-    /// From a signal's handler, when all is lost.
+    /// Async-signal-safe; called from the fatal-signal handler.
     void write_safe_outputs();
 
     const std::string& name() const { return config_.name; }
-    /// For faces, while the axis is there.
+    /// For the other interfaces (firmware/faces), while the axis exists.
     faces::AxisModel& model() { return faces_.model(); }
     std::string state_in_words() const;
 
   private:
-    /// What it cannot do without, and why it has it not; empty: it has.
+    /// The missing required resources with the reasons; empty: available.
     struct Missing {
         std::string store{};
         std::string lines{};
@@ -86,7 +86,7 @@ class Axis {
     void start(base::Instant now);
     void block_start();
     void load_table(base::Instant now);
-    void keep_permission();
+    void give_permission(base::Instant now);
     void tell_stored_settings();
     void reset(base::Instant now);
 
@@ -109,6 +109,7 @@ class Axis {
     base::Instant try_at_ = base::kNever;
     std::optional<gateway::StartCause> cause_;  ///< of the next start; nothing: not known without the store
     bool is_running_ = false;                   ///< note_running()
+    bool is_giving_ = false;                    ///< give_permission() is under way
 
     AxisStore store_{journal_, config_.name};
     AxisPins pins_;
@@ -124,7 +125,7 @@ class Axis {
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
     bool line_readable_ = false;
-    /// The motor's line is looked at then; it does not wake us.
+    /// While set, the motor's line is read at this time and does not wake the event loop.
     base::Instant unwatched_until_ = base::kNever;
 };
 

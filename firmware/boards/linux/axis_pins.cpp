@@ -38,8 +38,8 @@ void AxisPins::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
     for (const int descriptor : input_bits_.descriptors()) loop.watch(descriptor, mark++);
 }
 
-/// An edge tells its line's new level, and nothing else is asked for then. All lines are looked at whenever
-/// something else is the cause, so an edge that a chip has missed is seen a little later.
+/// An edge event carries its line's new level, and only that line is read then. On any other wake-up all
+/// lines are read, so an edge that the chip missed is detected a little later.
 void AxisPins::read_inputs() {
     std::uint32_t edges = std::exchange(edges_, 0);
     if (edges == 0) return inputs_->look();

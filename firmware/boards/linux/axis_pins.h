@@ -14,23 +14,23 @@ namespace nplc::boards {
 /// The GPIO lines of an axis.
 class AxisPins {
   public:
-    /// Those that it has, and whose chip is there, it keeps. Outputs get the levels `safe` first, and those
-    /// of set_safe() at the end. Answers why some cannot be had, a line each; then it may be tried again.
+    /// Opens the lines and keeps those whose chip is available. Outputs get the levels `safe` first, and
+    /// those of set_safe() at the end. Returns one error line per missing one; then it may be retried.
     std::vector<std::string> open(const AxisConfig& config, std::uint8_t safe);
     hal_linux::GpioInputs& inputs() { return *inputs_; }
     hal_linux::GpioOutputs& outputs() { return *outputs_; }
     void set_safe(std::uint8_t levels);
-    /// From a signal's handler too; nothing where there are none.
+    /// Async-signal-safe; no effect without outputs.
     void write(std::uint8_t levels);
 
-    /// Edges wake with `mark` and the marks behind it.
+    /// Edges wake the event loop with `mark` and the marks after it.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     void note_edge(std::uint32_t descriptor) { edges_ |= 1U << descriptor; }
     bool has_edges() const { return edges_ != 0; }
     void read_inputs();
 
-    /// True once when a chip is gone. Its descriptors, which are readable all the time then, are not watched
-    /// any more.
+    /// True once when a chip is lost. Its descriptors, which then are readable all the time, are no longer
+    /// watched.
     bool is_newly_lost(hal_linux::EventLoop& loop);
 
   private:
@@ -40,7 +40,7 @@ class AxisPins {
     bool has_outputs_ = false;
     std::optional<hal_linux::GpioInputs> inputs_;
     std::optional<hal_linux::GpioOutputs> outputs_;
-    std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
+    std::uint32_t edges_ = 0;  ///< pending edges, one bit per input descriptor, bit 0 is the first
     bool told_lost_ = false;
 };
 

@@ -6,8 +6,8 @@
 namespace nplc::boards {
 namespace {
 
-/// A motor that has not answered so long after the start is told of; one that is switched on with us needs
-/// some time.
+/// A motor that has not answered for this time after the start is reported; one that is powered up together
+/// with the board needs some time.
 constexpr base::Milliseconds kFirstAnswer{5'000};
 
 using registers::gateway::Event;
@@ -16,7 +16,7 @@ bool is_of_recipe(Event event) {
     return event == Event::recipe_loaded || event == Event::recipe_saved || event == Event::recipe_deleted;
 }
 
-/// Values with what they were, and names, which the log only counts.
+/// Names with old and new values, which the log only counts.
 std::string changes_of(const gateway::EventLog::Entry& entry, gateway::Controller& controller) {
     const auto event = static_cast<Event>(entry.event);
     const bool changes = event == Event::set_points_changed || event == Event::recipe_loaded;
@@ -30,7 +30,7 @@ std::string changes_of(const gateway::EventLog::Entry& entry, gateway::Controlle
     return "'" + recipe->name + "'" + (text.empty() ? "" : ", " + text);
 }
 
-/// Who holds the seat, which every change needs.
+/// The client that is the operator; every change needs one.
 std::string client_of(const gateway::EventLog::Entry& entry, const faces::Sitter* holder) {
     using registers::gateway::Origin;
     const auto event = static_cast<Event>(entry.event);

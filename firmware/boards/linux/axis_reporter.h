@@ -12,17 +12,17 @@
 
 namespace nplc::boards {
 
-/// Reports to the journal, once each, what an axis's log, its drive and its link to the motor have new.
+/// Reports new events of an axis's log, its drive and its motor link to the journal, once each.
 class AxisReporter {
   public:
     explicit AxisReporter(AxisJournal& journal) : journal_(journal) {}
 
-    /// With a new log.
+    /// To be called with a new log.
     void start(base::Instant now);
-    /// `holder`: who operates; null: nobody.
+    /// `holder`: the present operator; null: none.
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                 base::Instant now);
-    /// When report() is wanted at the latest.
+    /// Latest time of the next report().
     base::Instant next_report() const { return tell_silence_at_; }
 
   private:

@@ -73,7 +73,7 @@ void AxisStore::check_owner(const std::string& path) {
         journal_.write(LogLevel::notice, "new here: waits for a first run command, `nanoctl run`");
 }
 
-/// What was stored is lost where a run is known and its store is missing.
+/// The stored data are lost if the marker shows earlier runs and the store is missing.
 std::string AxisStore::check_marker(const std::string& folder, const std::string& path) {
     std::error_code error;
     marker_.emplace(folder + "/running");
@@ -108,7 +108,7 @@ std::string AxisStore::replace_lost_store(const std::string& path) {
     return error ? path + ": cannot be made: " + error.message() : "";
 }
 
-/// A watchdog's reset is over once a run has ended in order since then.
+/// A watchdog reset no longer counts once a run has ended in order since then.
 bool AxisStore::is_after_crash(const BoardStart& board) {
     if (!was_cut_off(board)) return false;
     if (permission_ == AutostartPermission::given) permission_ = AutostartPermission::after_crash;
@@ -140,14 +140,20 @@ std::string AxisStore::mark_running() {
     return error;
 }
 
-void AxisStore::note_run() {
-    if (!owner_ || permission_ == AutostartPermission::given || owner_->is_writing()) return;
-    permission_ = AutostartPermission::given;
-    owner_->begin_write(permission_);
-}
-
-std::string AxisStore::look() {
-    return owner_ ? owner_->poll().value_or("") : std::string();
+/// A write that was given up may still be under way at the next command, which then waits for it.
+std::optional<std::string> AxisStore::give_permission(base::Instant now) {
+    constexpr base::Milliseconds kLongestWrite{1'000};
+    if (!owner_) return "there is no store";
+    if (!asked_) {
+        asked_ = now;
+        if (!owner_->is_writing()) owner_->begin_write(AutostartPermission::given);
+    }
+    std::optional<std::string> outcome = owner_->poll();
+    if (!outcome && now - *asked_ < kLongestWrite) return std::nullopt;
+    asked_.reset();
+    if (!outcome) return "the store takes longer than 1 s to be written";
+    if (outcome->empty()) permission_ = AutostartPermission::given;
+    return outcome;
 }
 
 std::string AxisStore::mark_ended() {

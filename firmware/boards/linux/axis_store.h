@@ -14,38 +14,37 @@
 
 namespace nplc::boards {
 
-/// What is known of the board's own start.
+/// How the board itself was started.
 struct BoardStart {
-    bool by_watchdog = false;      ///< one of its watchdogs says that it has reset the board
-    bool power_cut_waits = false;  ///< a run that a restart of the board has cut off waits for the user
+    bool by_watchdog = false;      ///< one of its watchdogs reports that it has reset the board
+    bool power_cut_waits = false;  ///< after a power cut during a run the axis waits for the operator
 };
 
-/// An axis's folder: its store with the record of its owner, and the run marker that says how the last run
-/// ended. The sequence starts without a command only if somebody has commanded run with this store, in this
-/// axis, and since the last crash.
+/// An axis's folder: its store with the owner record, and the run marker that records how the last run ended.
+/// The sequence starts without a command only if run was commanded with this store, in this axis, since the
+/// last crash.
 class AxisStore {
   public:
     AxisStore(AxisJournal& journal, std::string axis) : journal_(journal), axis_(std::move(axis)) {}
 
-    /// Empty, or why it cannot be had, one line; then it may be tried again. A store that is lost is replaced
-    /// by one that says so until something is stored anew.
+    /// Empty, or a one-line error; then it may be retried. Replaces a missing store with one marked 'data
+    /// lost' until the next upload.
     std::string open(const std::string& folder);
     bool is_open() const { return storage_.has_value(); }
-    /// Fails at everything until it is open.
+    /// Returns an error for every operation until it is open.
     ports::Storage& storage();
     bool is_busy() { return storage().state() == ports::StorageState::busy; }
 
-    /// Whether the last run was cut off by something else than a power cut that the board may go on after;
-    /// then nothing starts without a command. Once it is open.
+    /// The last run was interrupted by something other than a power cut after which the board may continue;
+    /// then nothing starts without a command. Needs is_open().
     bool is_after_crash(const BoardStart& board);
     AutostartPermission permission() const { return permission_; }
-    /// Marks a run, and what is known now of the permission. In a store that is another program's the marker
-    /// is so too, and is left alone. Empty, or one line.
+    /// Marks a run as begun and stores the permission. Leaves the record in a store of another axis
+    /// unchanged. Empty, or a one-line error.
     std::string mark_running();
-    /// Somebody has commanded run: the permission is given, and written beside everything else.
-    void note_run();
-    /// To be called now and then after note_run(): why it could not be written, one line, once.
-    std::string look();
+    /// Somebody has commanded run: what says so is written beside everything else, for a second at the most.
+    /// To be called until it is answered: empty, and the permission is given; or why it is not, one line.
+    std::optional<std::string> give_permission(base::Instant now);
     std::string mark_ended();
     bool is_marked() const { return is_marked_; }
 
@@ -58,11 +57,12 @@ class AxisStore {
     AxisJournal& journal_;
     std::string axis_;
     std::optional<hal_linux::RunMarker> marker_;
-    bool marker_is_bad_ = false;  ///< as the start found it
-    bool is_lost_ = false;        ///< the store was missing, and replaced
+    bool marker_is_bad_ = false;  ///< at the start
+    bool is_lost_ = false;        ///< the store was missing and has been replaced
     std::optional<StoreOwner> owner_;
     AutostartPermission permission_ = AutostartPermission::first_run;
     bool is_marked_ = true;
+    std::optional<base::Instant> asked_;  ///< when the permission was
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;
     NoStorage no_storage_{kMemory};

@@ -30,7 +30,7 @@ bool is_name(const std::string& name) {
     });
 }
 
-/// Of a file's permissions, without the bits above them.
+/// Octal file permissions, four digits without the higher bits.
 bool is_mode(const std::string& text) {
     return text.size() == 4 && text[0] == '0' && text.find_first_not_of("01234567") == std::string::npos;
 }
@@ -229,7 +229,7 @@ class Reader {
         return axis.settings.set(setting, value).ok();
     }
 
-    /// What may stand once only, over all axes.
+    /// Finds values that must be unique over all axes.
     void find_doubles() {
         std::map<std::string, LocatedText> seen;
         const auto take = [&](const std::string& what, const LocatedText& place) {
@@ -261,7 +261,7 @@ class Reader {
         }
     }
 
-    /// Links such as those in /dev/serial lead to one device.
+    /// Links such as those in /dev/serial resolve to one device.
     static std::string port_id(const std::string& port) {
         std::error_code error;
         const auto path = std::filesystem::canonical(port, error);

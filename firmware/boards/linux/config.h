@@ -24,7 +24,7 @@ using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
 struct AxisConfig {
     std::string name;
     LocatedText table;    ///< a file whose table runs while none is stored
-    LocatedText symbols;  ///< a file with a table's names, for people
+    LocatedText symbols;  ///< a symbol file with the table's names
     MotorConfig motor;
     LocatedText user_port;        ///< a device, or an endpoint pty:, unix: or tcp:
     unsigned socket_mode = 0660;  ///< of a unix: endpoint
@@ -34,14 +34,14 @@ struct AxisConfig {
     faces::Scaling scaling{};
     Lines<6> inputs;
     Lines<4> outputs;
-    std::vector<LocatedText> gpio;    ///< every line that is named
-    store::SettingValues settings{};  ///< where none are stored
+    std::vector<LocatedText> gpio;    ///< every named line
+    store::SettingValues settings{};  ///< used while none are stored
     int line = 0;
 };
 
 inline constexpr std::size_t kMostPanelSecret = 4096;
 
-/// The panel in a browser; none where `listen` is not there.
+/// The browser panel; off without `listen`.
 struct PanelConfig {
     LocatedText listen;  ///< as it is written
     std::string address;
@@ -57,8 +57,8 @@ struct Config {
     hal_linux::RealTime real_time;
     LocatedText watchdog_device;
     int watchdog_seconds = 10;
-    /// After a power cut in a run; false: the settings' autostart decides. Nothing: it waits where
-    /// watchdog_device is one whose driver cannot tell its own resets, which look like power cuts.
+    /// After a power cut during a run: whether the axis waits for the operator. Unset: the axis waits if the
+    /// driver of watchdog_device cannot report its own resets, which then look like power cuts.
     std::optional<bool> power_cut_waits{};
     PanelConfig panel;
     ModbusConfig modbus;
@@ -69,15 +69,15 @@ struct Config {
 
 struct ReadConfig {
     Config config;
-    Findings findings;  ///< mistakes by line; with one the configuration is not to be used
+    Findings findings;  ///< mistakes by line; with any, the configuration must not be used
 };
-/// Everything that can be said without looking at the machine.
+/// All checks that need no access to the machine.
 ReadConfig read_config(std::string_view text);
 
-/// What it names and this machine has not.
+/// Devices in the configuration that this machine does not have.
 std::vector<Mistake> missing_devices(const Config& config);
 
-/// The same for two ways to write a GPIO line, as far as its words tell.
+/// Equal for two spellings of one GPIO line, as far as the text shows it.
 std::string line_id(const std::string& where);
 
 }  // namespace nplc::boards

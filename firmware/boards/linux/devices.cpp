@@ -1,4 +1,4 @@
-// What the configuration names and this machine has not.
+// Devices in the configuration that this machine does not have.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <net/if_arp.h>
@@ -65,7 +65,7 @@ void check_serial(const LocatedText& port, std::vector<Mistake>& missing) {
                          port.text)});
 }
 
-/// One that is down is no mistake: it may come up later.
+/// An interface that is down is no mistake: it may come up later.
 void check_can(const LocatedText& can, std::vector<Mistake>& missing) {
     if (!can.is_there()) return;
     const std::string path = "/sys/class/net/" + can.text;
@@ -96,7 +96,7 @@ void check_secret(const LocatedText& file, std::size_t most, std::vector<Mistake
         missing.push_back({file.line, file.key, error});
 }
 
-/// One line by two names is seen here only: the kernel knows which line a name is.
+/// One line with two names is detected only here: only the kernel can resolve a name.
 class LineCheck {
   public:
     explicit LineCheck(std::vector<Mistake>& missing) : missing_(missing) {}

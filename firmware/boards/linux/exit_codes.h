@@ -5,7 +5,8 @@ namespace nplc::boards {
 enum ExitCode : int {
     kDone = 0,
     kWrong = 2,     ///< the command line or the configuration
-    kNoDevice = 3,  ///< the watchdog could not be had; of check-config: what an axis cannot have or run
+    kNoDevice = 3,  ///< the watchdog is not available; check-config: a resource of an axis is missing or its
+                    ///< table cannot run
 };
 
 }  // namespace nplc::boards

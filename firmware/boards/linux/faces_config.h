@@ -8,7 +8,7 @@
 
 namespace nplc::boards {
 
-/// Table `modbus`. Without `listen` there is no server for TCP, without `rtu_port` none for a serial line.
+/// Table `modbus`. Without `listen` there is no TCP server, without `rtu_port` none on a serial line.
 struct ModbusConfig {
     LocatedText listen;
     modbus::TcpServer::Options options{};

@@ -7,7 +7,7 @@
 
 namespace nplc::boards {
 
-/// What faces have of an axis, and the loop's side of it.
+/// The interface between an axis and the faces, on the event loop's side.
 class FacesPart {
   public:
     FacesPart(const std::string& name, const faces::Scaling& scaling, const faces::LoopSettings& settings)

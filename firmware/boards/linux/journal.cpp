@@ -13,7 +13,7 @@
 namespace nplc::boards {
 namespace {
 
-/// JOURNAL_STREAM is DEVICE:INODE of what the service was started with.
+/// JOURNAL_STREAM is DEVICE:INODE of the service's original standard error.
 bool stderr_is_journal() {
     const char* stream = std::getenv("JOURNAL_STREAM");
     struct stat status {};
@@ -33,7 +33,7 @@ int open_socket(std::string_view path) {
     return -1;
 }
 
-/// A value with a line feed has its length before it, 8 bytes, the low one first.
+/// A value with a line feed is preceded by its length, 8 bytes, little-endian.
 void put_field(std::string& message, std::string_view name, const std::string& value) {
     message += name;
     if (value.find('\n') == std::string::npos) {
@@ -47,7 +47,7 @@ void put_field(std::string& message, std::string_view name, const std::string& v
     message += '\n';
 }
 
-/// As the journal's own protocol has it.
+/// In the journal's native protocol.
 std::string journal_message(LogLevel level, const std::string& text, const JournalFields& fields) {
     std::string message;
     put_field(message, "MESSAGE", text);
@@ -77,7 +77,7 @@ void Journal::write(LogLevel level, const std::string& text, const JournalFields
     }
     const std::string prefix = is_journal_ ? fmt::format("<{}>", static_cast<int>(level)) : "";
     const std::string line = prefix + text + "\n";
-    // One write a line: nothing is held back, and lines of other programs do not mix in.
+    // One write per line: nothing is buffered, and lines of other programs do not mix in.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 

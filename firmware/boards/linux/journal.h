@@ -5,28 +5,28 @@
 
 namespace nplc::boards {
 
-/// As the journal counts them.
+/// Numbered as in the journal.
 enum class LogLevel : int { error = 3, warning = 4, notice = 5, info = 6, debug = 7 };
 
-/// What the journal can be searched by, beside its own fields: `journalctl NANOPLC_CAUSE=link_down`. The
-/// README has the list.
+/// Fields for searching the journal, besides its own: `journalctl NANOPLC_CAUSE=link_down`. The README has
+/// the list.
 struct JournalField {
-    std::string name;  ///< capitals, behind NANOPLC_
+    std::string name;  ///< capitals, without the prefix NANOPLC_
     std::string value;
 };
 using JournalFields = std::vector<JournalField>;
 
-/// Lines for the user on standard error. Where that is the journal they go there with their level and fields;
-/// where it does not take them so, with their level <3> before them, which it takes off.
+/// Lines for the operator on standard error. If that is the journal they are sent with their level and
+/// fields, or, where the journal does not accept that, with the level prefix <3>, which it strips.
 class Journal {
   public:
-    /// The journal's socket is systemd's, or where NANOPLC_JOURNAL_SOCKET of the environment says.
+    /// The journal's socket is systemd's, or the one in the environment variable NANOPLC_JOURNAL_SOCKET.
     explicit Journal(LogLevel most);
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    /// Never waits for the journal.
+    /// Never blocks on the journal.
     void write(LogLevel level, const std::string& text, const JournalFields& fields = {});
     bool writes(LogLevel level) const { return level <= most_; }
 
@@ -36,7 +36,7 @@ class Journal {
     int socket_ = -1;
 };
 
-/// Those about one axis, whose name they begin with.
+/// Lines about one axis, with its name as prefix.
 class AxisJournal {
   public:
     AxisJournal(Journal& journal, const std::string& axis) : journal_(journal), axis_(axis) {}

@@ -20,6 +20,7 @@ class JvlSupport final : public DriveSupport {
     bool streams_status() const override { return true; }
     std::vector<WiringRow> wiring(const MotorConfig& motor, std::uint32_t baud) const override;
     std::string closing_note() const override;
+    std::string loss_in_words(const motor::AnyDriver& driver, const std::string& line) const override;
 };
 
 void JvlSupport::read(MotorConfig& motor, Section& section, int axis_line) const {
@@ -51,6 +52,17 @@ std::string JvlSupport::closing_note() const {
            "MacTalk line, but no connector pins: go by the labels on the dead module or by its own data "
            "sheet, and\n"
            "measure before you connect. The motor's RS422 pair needs a converter.\n";
+}
+
+std::string JvlSupport::loss_in_words(const motor::AnyDriver& driver, const std::string& line) const {
+    const auto* motor = driver.get<motor::JvlMotor>();
+    if (motor == nullptr || !motor->was_too_late()) return {};
+    return fmt::format(
+        "the motor's answers on {} come too late, {:.1f} ms after what they answer, and 40 ms are allowed; "
+        "most "
+        "likely a USB adapter holds them back: set its latency timer to 1 ms "
+        "(/sys/bus/usb-serial/devices/ttyUSB0/latency_timer), or use another adapter",
+        line, static_cast<double>(motor->echo_time().count()) / 1'000);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ namespace {
 
 using ports::CanState;
 
-/// Warning and passive still take part.
+/// A controller in state warning or passive still takes part on the bus.
 CanState without_degrees(CanState state) {
     return state == CanState::warning || state == CanState::passive ? CanState::active : state;
 }

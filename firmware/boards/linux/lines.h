@@ -12,16 +12,16 @@
 
 namespace nplc::boards {
 
-/// A serial port that is looked for again when its adapter was pulled out, or was not there at the start.
+/// A serial port that is reopened after its adapter was unplugged, or was not present at the start.
 class ReopenedUart {
   public:
-    /// Empty, or one line: then it is gone until look() finds it.
+    /// Empty, or a one-line error: then the port is missing until look() finds it.
     std::string open(const std::string& who, const hal_linux::UartSettings& settings);
     hal_linux::Uart& uart() { return *uart_; }
     bool gone() const { return uart_->gone(); }
-    /// True if it has come back, with another descriptor. Says so, and says when it has gone.
+    /// True if it has come back, with another descriptor. Logs its loss and its return.
     bool look(Journal& journal, base::Instant now);
-    /// When look() is wanted at the latest.
+    /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
@@ -29,20 +29,20 @@ class ReopenedUart {
 
     std::string who_;
     std::string path_;
-    std::string problem_;  ///< why it could not be opened the last time; empty: it was
+    std::string problem_;  ///< error of the last attempt to open it; empty: none
     std::unique_ptr<hal_linux::Uart> uart_;
     base::Instant retry_at_ = base::kNever;
 };
 
-/// A CAN interface that is looked for again when its adapter was pulled out, or was not there at the start.
-/// Says what happens to it; who uses it restarts it when it is off the bus.
+/// A CAN interface that is reopened after its adapter was unplugged, or was not present at the start. Logs
+/// its state changes; its user restarts it when it is bus-off.
 class ReopenedCan {
   public:
-    /// An interface that is down may be opened; one that cannot be is gone until look() finds it.
+    /// An interface that is down can be opened; one that cannot be opened is missing until look() finds it.
     void open(const std::string& who, const hal_linux::CanSettings& settings);
     hal_linux::SocketCan& can() { return *can_; }
     void look(Journal& journal, base::Instant now);
-    /// When look() is wanted at the latest.
+    /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
@@ -51,7 +51,7 @@ class ReopenedCan {
 
     std::string who_;
     std::string interface_;
-    std::string problem_;  ///< why it could not be opened the last time; empty: it was
+    std::string problem_;  ///< error of the last attempt to open it; empty: none
     std::unique_ptr<hal_linux::SocketCan> can_;
     bool told_gone_ = false;
     std::string told_problem_;
@@ -59,7 +59,7 @@ class ReopenedCan {
     base::Instant retry_at_ = base::kNever;
 };
 
-/// A serial line that is asked for what has come when open() says so, and then only until it has no more.
+/// A serial line that is read only after open() and until it has no more data.
 class GatedPort final : public ports::SerialPort {
   public:
     explicit GatedPort(ports::SerialPort& port) : port_(port) {}

@@ -10,7 +10,7 @@ namespace {
 using gateway::Event;
 using gateway::SafeReason;
 
-/// What the board lacks.
+/// Message for a missing required resource.
 LogMessage of_missing(SafeReason reason) {
     if (reason == SafeReason::no_lines)
         return {LogLevel::error, "SAFE: GPIO lines are missing; it cannot run without them"};
@@ -84,7 +84,7 @@ std::string by_whom(std::uint16_t detail) {
     return std::string(registers::gateway::name_of(static_cast<registers::gateway::Origin>(detail >> 8)));
 }
 
-/// Which ones, and from what to what, AxisReporter adds.
+/// AxisReporter adds the names and the old and new values.
 LogMessage of_set_points(Event event, std::uint16_t detail) {
     const unsigned number = detail & 0xFF;
     switch (event) {

@@ -12,9 +12,9 @@ struct LogMessage {
     LogLevel level;
     std::string text;
 };
-/// What the journal can be searched by: EVENT, CAUSE of a safe state, STEP, DETAIL.
+/// Fields for searching the journal: EVENT, CAUSE of a safe state, STEP, DETAIL.
 JournalFields fields_of(const gateway::EventLog::Entry& entry);
-/// An entry of the gateway's log for the user: what happened, and for a fault what to do.
+/// Text of a log entry for the operator: the event, and for a fault the remedy.
 LogMessage in_words(const gateway::EventLog::Entry& entry);
 
 }  // namespace nplc::boards

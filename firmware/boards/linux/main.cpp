@@ -39,7 +39,7 @@ constexpr const char* kFooter =
     "watchdog could not be had, or check-config found what an axis cannot have or run.\n"
     "Example: nanoplc check-config /etc/nanoplc/nanoplc.toml && nanoplc --config /etc/nanoplc/nanoplc.toml";
 
-/// Far more than eight axes need.
+/// More than eight axes need.
 constexpr std::size_t kMostOfAConfig = std::size_t{1} << 20U;
 
 struct Options {
@@ -82,7 +82,7 @@ int run_service(const std::string& file) {
     return Service(loaded.config, journal).run();
 }
 
-/// What this machine lacks, and what is wrong with what is stored on it.
+/// Devices missing on this machine, and faults in the stored data.
 StoredFindings look_around(const Config& config) {
     StoredFindings found = look_at_stored(config);
     std::vector<Mistake>& troubles = found.troubles;

@@ -16,10 +16,10 @@ namespace {
 namespace midi = registers::midi;
 using motor::MidiFault;
 
-/// Those that do not come and go with every braking (000 §VI 21h).
+/// Warnings that do not come and go with every braking (000 §VI 21h).
 constexpr std::uint32_t kWarnings = midi::kUnderVoltage | midi::kOverVoltageKept;
 
-/// Pins of the line as far as the manuals give them (003 §VIII).
+/// With the pins of the line as far as the manuals give them (003 §VIII).
 class MidiSupport final : public DriveSupport {
   public:
     std::span<const char* const> keys() const override {

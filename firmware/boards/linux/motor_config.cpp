@@ -30,7 +30,7 @@ std::string in_small_letters(std::string_view text) {
     return small;
 }
 
-/// "jvl", "mac23": a family whose models setting motor_kind does not tell apart goes by its own name.
+/// "jvl", "mac23": a family that has only one value of setting motor_kind is named by the family.
 std::vector<MotorKind> kinds() {
     std::vector<MotorKind> all;
     for (const registers::DriveFamily* family : registers::families()) {
@@ -61,7 +61,7 @@ std::string kinds_of(const registers::DriveFamily& family) {
     return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-/// Keys that another family has: they exist, but not here.
+/// Keys of other families: valid keys, but not for this one.
 void refuse_others(const registers::DriveFamily& chosen, Section& section) {
     const registers::DriveFamily& usual = *registers::families().front();
     for (const registers::DriveFamily* family : registers::families()) {

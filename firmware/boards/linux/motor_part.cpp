@@ -37,12 +37,15 @@ motor::Motor& MotorPart::start(const store::SettingValues& values) {
 std::string MotorPart::silence_in_words() const {
     const std::string line = config_.line_in_words();
     std::string why = support_of(config_).silence_in_words(driver_, line);
+    if (why.empty()) why = support_of(config_).loss_in_words(driver_, line);
     if (!why.empty()) return why;
     return fmt::format("no motor has answered yet on {}; look at its supply, its line, and at [axis.motor]",
                        line);
 }
 
 std::string MotorPart::loss_in_words() const {
+    std::string why = support_of(config_).loss_in_words(driver_, config_.line_in_words());
+    if (!why.empty()) return why;
     const bool has_cause = support_of(config_).fault_in_words(driver_).has_value();
     return fmt::format("{} on {}", has_cause ? "no link to the motor" : "the motor does not answer",
                        config_.line_in_words());

@@ -13,11 +13,11 @@
 
 namespace nplc::boards {
 
-/// The motor of an axis: its line and its driver, whatever kind it is.
+/// An axis's motor of any kind: its line and its driver.
 class MotorPart {
   public:
-    /// A serial line has `set_baud` where the configuration says nothing else. One that cannot be had now is
-    /// silent until look() finds it.
+    /// Opens the line; a serial line has `set_baud` unless the configuration gives a speed. A line that
+    /// cannot be opened is silent until look() finds it.
     void open(const std::string& who, const MotorConfig& config, std::uint32_t set_baud);
     /// A new driver on the open line, as after a power-up.
     motor::Motor& start(const store::SettingValues& values);
@@ -25,24 +25,24 @@ class MotorPart {
     motor::Motor& driver() { return *motor_; }
     const motor::Motor& driver() const { return *motor_; }
     const motor::AnyDriver& any_driver() const { return driver_; }
-    /// The driver's.
+    /// Of the driver.
     base::Instant next_poll(base::Instant now) const { return driver_.next_poll(now); }
 
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     void ignore(hal_linux::EventLoop& loop);
-    /// After the driver's poll: says what has happened to the line. True if it has another descriptor.
+    /// To be called after the driver's poll: logs changes of the line. True if it has another descriptor.
     bool look(Journal& journal, base::Instant now);
     base::Instant next_look() const { return uart_ ? uart_->next_look() : can_->next_look(); }
     std::string line_in_words() const { return config_.line_in_words(); }
-    /// Why the link has not come up, and that it was lost.
+    /// Text for a link that has not come up, and for a lost one.
     std::string silence_in_words() const;
     std::string loss_in_words() const;
-    /// What the driver says of the drive's faults and warnings, once each.
+    /// New faults and warnings of the drive, once each.
     std::vector<LogMessage> news();
-    /// Status comes without pause and nothing waits for it: the line need not be watched for some
+    /// The status is repeated without pause and nothing waits for it: the line need not be watched for some
     /// milliseconds.
     bool needs_no_watch() const;
-    /// A status that comes without pause is taken from the line only while it is open.
+    /// Allows the driver to read a status that is repeated without pause.
     void open_line(base::Instant now);
     bool was_read_since(base::Instant time) const { return line_ && line_->opened() >= time; }
 

@@ -77,7 +77,7 @@ void read_set_points(Section& section, mqtt::Options& options) {
     }
 }
 
-/// What goes beyond a gateway of its own names.
+/// Checks that need more than the name rules of one gateway.
 void check_names(Section& section, const mqtt::Options& options) {
     for (const auto& [key, part] : {std::pair{"group", options.group}, {"node", options.node}}) {
         if (part.find('/') != std::string::npos || !orders::is_name(part, orders::kLongestName))

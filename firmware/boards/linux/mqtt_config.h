@@ -12,7 +12,7 @@ struct MqttConfig {
 };
 MqttConfig read_mqtt(Section& root, Findings& findings);
 
-/// "run", "stop", ... that may come over MQTT.
+/// "run", "stop", ...: the commands that can be allowed over MQTT.
 std::vector<std::string> mqtt_command_names();
 
 }  // namespace nplc::boards

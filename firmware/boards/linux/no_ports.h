@@ -5,7 +5,7 @@
 #include "ports/storage.h"
 #include "ports/watchdog.h"
 
-/// Ports where there is none.
+/// Null ports, for missing hardware.
 namespace nplc::boards {
 
 struct NoLine final : ports::SerialPort {

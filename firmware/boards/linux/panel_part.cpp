@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSymbols = std::size_t{1024} * 1024;
 
-/// Empty if it cannot be read, or is too long for what it should be.
+/// Empty if it cannot be read or is too long.
 std::string text_of(const std::string& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
@@ -43,7 +43,7 @@ StoredNames::Found StoredNames::find(std::size_t axis, std::uint32_t crc) {
     return {config_.axes[axis].table.text, {}};
 }
 
-/// Whole or not at all: the old file is there until the new one is.
+/// Atomic: the old file stays until the new one is complete.
 std::string StoredNames::keep(std::size_t axis, std::uint32_t crc, std::string_view text) {
     if (!panel::is_for_table(text, crc)) return "the names are those of another table";
     const std::string path = kept_file(axis);
@@ -80,7 +80,7 @@ void PanelPart::open(const std::vector<std::unique_ptr<Axis>>& axes) {
         return;
     std::vector<panel::PanelAxis> list;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        // Which of JVL's own it is stands in the settings.
+        // For JVL the model is a setting, not part of the configuration.
         const registers::DriveModel& model = *config_.axes[i].motor.model;
         list.push_back({&axes[i]->model(), model.family->is_translated() ? std::string(model.name) : ""});
     }

@@ -11,8 +11,8 @@
 
 namespace nplc::boards {
 
-/// Names of each axis's table: those that came with an upload, in the axis's folder, and those that the
-/// configuration names. Both tell the table that they are for.
+/// Symbol files of each axis's table: the one that came with an upload, in the axis's folder, and the one
+/// that the configuration names. Both name the table that they belong to.
 class StoredNames final : public panel::SymbolShelf {
   public:
     explicit StoredNames(const Config& config) : config_(config) {}
@@ -26,18 +26,19 @@ class StoredNames final : public panel::SymbolShelf {
     const Config& config_;
 };
 
-/// The panel of all axes; nothing where the configuration has none, or it cannot be had: the axes run without
+/// The panel of all axes; empty if the configuration has none or it cannot be started: the axes run without
 /// it.
 class PanelPart {
   public:
     PanelPart(const Config& config, Journal& journal) : config_(config), journal_(journal), names_(config) {}
 
-    /// Before the axes' loop begins, and before the thread becomes urgent. It must end before the axes.
+    /// Before the axes' loop begins, and before the thread gets real-time priority. It must end before the
+    /// axes.
     void open(const std::vector<std::unique_ptr<Axis>>& axes);
     void close() { panel_.reset(); }
 
   private:
-    /// The first line of a file with a secret. False: told why there is none.
+    /// Reads the first line of a secret file. False: the error was logged.
     bool read_secret(const LocatedText& file, std::string& secret);
 
     const Config& config_;

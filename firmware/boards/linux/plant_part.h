@@ -11,27 +11,26 @@
 
 namespace nplc::boards {
 
-/// What `check-config` says of the faces that listen or go out, a line each; empty: none is configured.
+/// The configured faces for `check-config`, one line each; empty: none.
 std::vector<std::string> faces_in_words(const Config& config);
 
-/// The faces towards the plant that the configuration names. One that cannot be had stops no axis: it is
-/// tried again.
+/// The configured plant interfaces. A missing one stops no axis and is retried.
 class PlantPart {
   public:
     PlantPart(const Config& config, Journal& journal) : config_(config), journal_(journal) {}
 
-    /// From the axes' loop, before it begins. They must end after close().
+    /// To be called from the axes' loop before it begins. The axes must end after close().
     void open(faces::Axes axes, base::Instant now);
-    /// Tries again what is missing.
+    /// Retries the missing ones.
     void look(base::Instant now);
-    /// When look() is wanted.
+    /// Latest time of the next look().
     base::Instant next() const { return again_; }
     void close() { faces_.clear(); }
 
   private:
     struct Face {
         std::string name;
-        /// The face, or why not.
+        /// Returns the face, or null and an error.
         std::function<std::shared_ptr<void>(std::string& where, std::string& error)> open;
         std::shared_ptr<void> running{};
         bool was_told = false;

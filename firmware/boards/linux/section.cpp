@@ -33,7 +33,7 @@ std::string_view in_words(Kind kind) {
     return "something else";
 }
 
-/// Letters to insert, leave out or change.
+/// Edit distance: letters to insert, delete or replace.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
@@ -49,7 +49,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// axis[x].motor is axis.motor for every axis.
+/// Path without the axis name: axis[x].motor becomes axis.motor.
 std::string without_name(std::string path) {
     const std::size_t open = path.find('[');
     if (open != std::string::npos) path.erase(open, path.rfind(']') + 1 - open);

@@ -12,27 +12,27 @@ namespace nplc::boards {
 
 using TomlValue = toml_files::Value;
 
-/// Something in a configuration that cannot be used.
+/// An invalid entry of a configuration.
 struct Mistake {
     int line = 0;
-    std::string key;   ///< "axis[x].motor.port"; empty where no key is to blame
-    std::string text;  ///< what is wrong and what to do
+    std::string key;   ///< "axis[x].motor.port"; empty if it is not about a key
+    std::string text;  ///< the mistake and its remedy
 };
 
-/// What came out of reading a configuration beside its values.
+/// Results of reading a configuration, besides its values.
 struct Findings {
     std::vector<Mistake> mistakes{};
-    std::set<std::string> keys{};  ///< all that may stand in it: "axis.motor.port"
+    std::set<std::string> keys{};  ///< all allowed keys: "axis.motor.port"
 };
 
-/// Of the words the one that is most like `word`; empty if none is.
+/// The word most similar to `word`; empty if none is.
 std::string nearest(std::string_view word, const std::set<std::string>& words);
 
-/// A table of the configuration. Whatever is asked for is a key it may have; `finish` complains of all
-/// others. Mistakes are collected, and what is wrong reads as if it were not there.
+/// A table of the configuration. Every key that is queried counts as allowed; `finish` reports all others.
+/// Mistakes are collected, and an invalid value reads as if it were missing.
 class Section {
   public:
-    /// `value`: a table, or nullptr for one that is not there. `path`: "axis[x].motor".
+    /// `value`: a table, or nullptr if it is missing. `path`: "axis[x].motor".
     Section(const TomlValue* value, std::string path, Findings& findings);
 
     const std::string& path() const { return path_; }
@@ -42,9 +42,9 @@ class Section {
     std::optional<std::string> text(const std::string& key);
     std::optional<std::int64_t> number(const std::string& key, std::int64_t lowest, std::int64_t highest);
     std::optional<bool> flag(const std::string& key);
-    /// The place of the value among the words.
+    /// Index of the value in `words`.
     std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& words);
-    /// Whatever it is; nullptr if it is not there.
+    /// A value of any type; nullptr if it is missing.
     const TomlValue* any(const std::string& key);
     const TomlValue* table(const std::string& key);
     const TomlValue* list(const std::string& key, const std::string& example);
@@ -63,7 +63,7 @@ class Section {
     std::set<std::string> known_;
 };
 
-/// A text of the configuration and where it stands.
+/// A text of the configuration with its position.
 struct LocatedText {
     std::string text{};
     int line = 0;
@@ -71,13 +71,13 @@ struct LocatedText {
     bool is_there() const { return !text.empty(); }
 };
 
-/// Empty where the key is not there or "none".
+/// Empty if the key is missing or "none".
 LocatedText located_text(Section& section, const std::string& key);
 
 bool is_endpoint(const std::string& port);
 
-/// A device, or, if it may be, an endpoint that the network does not reach: whoever reaches the port can move
-/// the motor.
+/// Checks for a device, or, if allowed, an endpoint that is not reachable from the network: a client that
+/// reaches the port can move the motor.
 void check_port(Section& section, const LocatedText& port, bool may_be_endpoint);
 
 }  // namespace nplc::boards

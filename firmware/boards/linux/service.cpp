@@ -13,17 +13,17 @@ namespace {
 
 constexpr std::array kEndSignals{SIGTERM, SIGINT, SIGHUP, SIGQUIT};
 constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS};
-/// For the motor to take the stop at the end.
+/// Timeout for the motor's confirmation of the stop at the end.
 constexpr base::Milliseconds kLongestEnd{2'000};
 
-/// For the handler of fatal signals, which gets nothing else to work with.
+/// Used by the fatal-signal handler, which cannot get other parameters.
 std::array<Axis*, 16> last_resort{};
 
 void die_safely(int signal) {
     for (Axis* axis : last_resort) {
         if (axis != nullptr) axis->write_safe_outputs();
     }
-    ::raise(signal);  // its action is the default one by now
+    ::raise(signal);  // the handler was reset to the default action
 }
 
 void catch_fatal_signals() {

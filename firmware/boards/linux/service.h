@@ -13,11 +13,11 @@
 
 namespace nplc::boards {
 
-/// Several scans' watchdog: hands on only when all of them have fed since the last time.
+/// A watchdog shared by several scans: feeds the real one only when all of them have fed since the last time.
 class CommonWatchdog {
   public:
     explicit CommonWatchdog(std::vector<ports::Watchdog*> targets) : targets_(std::move(targets)) {}
-    /// One for each axis; made before the first of them is fed.
+    /// One per axis; to be called before the first of them is fed.
     ports::Watchdog& add();
 
   private:
@@ -33,7 +33,7 @@ class CommonWatchdog {
     std::vector<std::unique_ptr<Part>> parts_;
 };
 
-/// The process: axes, their event loop, signals, watchdogs. `run` answers the exit code.
+/// The process: axes, their event loop, signals, watchdogs. `run` returns the exit code.
 class Service {
   public:
     Service(const Config& config, Journal& journal)

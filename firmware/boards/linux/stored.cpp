@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 using gateway::Result;
 using store::Setting;
 
-/// The bytes of a store, which nothing writes to; blank where there is no store yet.
+/// A read-only copy of a store; blank if there is no store yet.
 class StoreCopy final : public ports::Storage {
   public:
-    /// Empty, or one line.
+    /// Empty, or a one-line error.
     std::string read_file(const std::string& path) {
         std::error_code error;
         const bool is_there = fs::exists(path, error);
@@ -56,7 +56,7 @@ class StoreCopy final : public ports::Storage {
     std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(kMemory.size, 0xFF);
 };
 
-/// An axis's start without anything but its store.
+/// Simulates the start of an axis with nothing but its store.
 class Rehearsal {
   public:
     Rehearsal(const AxisConfig& config, StoreCopy& store) : config_(config), settings_(store, kSettingsArea) {

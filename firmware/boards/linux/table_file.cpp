@@ -19,7 +19,7 @@ namespace nplc::boards {
 namespace {
 
 constexpr std::size_t kLongest = (sequencer::kMaxTerms + 1) * sequencer::kTermBytes;
-/// In Intel HEX a byte is two digits, and a record of one byte has twelve more and the end of its line.
+/// In Intel HEX a byte takes two digits, and a record of one byte twelve more and a line end.
 constexpr std::size_t kLongestFile = kLongest * 16;
 constexpr std::size_t kLongestSymbols = std::size_t{4} * 1024 * 1024;
 
@@ -49,7 +49,7 @@ std::string content_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What a symbol file for this table has of set-points goes behind the table; one line if it does not fit.
+/// Appends the set-point record from the table's symbol file; a one-line error if it does not fit.
 std::string add_record(std::vector<std::uint8_t>& table, const std::string& symbols) {
     const std::string text = content_of(symbols);
     if (text.empty() || !panel::is_for_table(text, base::crc32(table))) return {};

@@ -38,7 +38,7 @@ std::string UserConnection::open(const AxisConfig& config, std::uint32_t stored_
     return error;
 }
 
-/// Without the password that it is to ask for it would let everybody in.
+/// If the password cannot be read the server is not started: it would be open to everyone.
 std::string UserConnection::open_server(const AxisConfig& config, bool at_once, faces::Seat& operators) {
     faces::Secret password;
     if (config.password_file.is_there())
@@ -51,7 +51,7 @@ std::string UserConnection::open_server(const AxisConfig& config, bool at_once, 
         password.text);
 }
 
-/// A stored speed that this port cannot do must not keep the user out who would set it back.
+/// Falls back to the configured baud rate so that the setting can be corrected.
 std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint32_t stored_baud) {
     const std::uint32_t configured = config.settings.get(store::Setting::user_baud);
     const std::string& path = config.user_port.text;

@@ -11,29 +11,29 @@
 
 namespace nplc::boards {
 
-/// The user's port of an axis: a serial port, or a server for many clients; or none.
+/// An axis's user port: a serial port, a server for many clients, or none.
 class UserConnection {
   public:
     explicit UserConnection(AxisJournal& journal) : journal_(journal) {}
 
-    /// Empty, or why it cannot be had, one line; then it may be tried again, and the port is not served. A
-    /// server stays open. A serial port has the stored speed, or the configured one where it cannot do that.
-    /// `operators`: who may operate, of all clients.
+    /// Empty, or a one-line error; then it may be retried, and the port is not served. A server stays open. A
+    /// serial port has the stored baud rate, or the configured one if it does not support that. `operators`:
+    /// decides which client is the operator.
     std::string open(const AxisConfig& config, std::uint32_t stored_baud, bool at_once,
                      faces::Seat& operators);
-    /// For a new controller.
+    /// To be called for a new controller.
     void start();
 
     void watch_server(hal_linux::EventLoop& loop, std::uint32_t mark);
     void watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t mark);
     void note_readable() { readable_ = true; }
-    /// Before the controller's poll.
+    /// To be called before the controller's poll.
     void look(gateway::Controller& controller, const Listener::Addresses& addresses, base::Instant now);
-    /// After it.
+    /// To be called after it.
     void answer(gateway::Controller& controller, base::Instant now);
-    /// After it. True if the serial port has come back with another descriptor.
+    /// To be called after it. True if the serial port has come back with another descriptor.
     bool look_for_serial_port(base::Instant now);
-    /// When look() is wanted at the latest.
+    /// Latest time of the next look().
     base::Instant next_look(base::Instant now) const;
 
   private:

@@ -8,13 +8,13 @@
 
 namespace nplc::boards {
 
-/// A serial line as the connection of one client, who is always there.
+/// A serial line as the connection of a single, permanent client.
 class UserLine final : public hal_linux::Connections {
   public:
     UserLine(ports::SerialPort& port, std::string name) : port_(port), name_(std::move(name)) {}
 
     const std::string& name() const override { return name_; }
-    /// None: whoever has the port waits for its news.
+    /// No descriptor: the owner of the port waits for its data.
     int descriptor() const override { return -1; }
     std::optional<Id> accept() override;
     Peer peer(Id) const override { return {.kind = Peer::Kind::serial_line}; }

@@ -12,11 +12,11 @@
 
 namespace nplc::boards {
 
-/// The user's port: a socket, a terminal or a serial line, for all clients that it can have.
+/// The user port for many clients: a socket, a terminal or a serial line.
 class UserServer {
   public:
-    /// Empty, or one line. `operators`: who may operate, of all clients. `password`: empty, none is asked
-    /// for.
+    /// Empty, or a one-line error. `operators`: decides which client is the operator. `password`: empty: none
+    /// required.
     std::string open(const std::string& endpoint, const hal_linux::ByteServer::Settings& settings,
                      faces::Seat* operators, const std::string& password);
     void serve(std::unique_ptr<hal_linux::Connections> connections, faces::Seat* operators,
@@ -27,13 +27,13 @@ class UserServer {
     unsigned turned_away() const { return connections_->turned_away(); }
 
     void restarted() { listener_->restarted(); }
-    /// Before the controller's poll, where something has come or it is time.
+    /// To be called before the controller's poll, when data have arrived or next() is due.
     void bring(gateway::Controller& controller, const Listener::Addresses& addresses, base::Instant now);
-    /// After it.
+    /// To be called after it.
     void take_back(gateway::Controller& controller, base::Instant now) {
         exchange_->take_back(controller, now, now);
     }
-    /// When bring() is wanted at the latest.
+    /// Latest time of the next bring().
     base::Instant next(base::Instant now) const { return exchange_->next(now); }
 
   private:

@@ -6,7 +6,7 @@
 
 namespace nplc::boards {
 
-/// What is to be joined to what, as a table for the electrician.
+/// The wiring table for the electrician.
 std::string wiring(const Config& config);
 
 }  // namespace nplc::boards

@@ -1,4 +1,4 @@
-// Who comes to a listener, who goes for that, and what they send.
+// Clients of a listener: connecting, removal to make room, and received messages.
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -15,8 +15,8 @@ namespace mactalk = protocol::mactalk;
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 16;        ///< messages of one client
-constexpr std::size_t kMostBeforeFirst = 1024;  ///< bytes that are no message
+constexpr std::size_t kMostWaiting = 16;        ///< pending messages of one client
+constexpr std::size_t kMostBeforeFirst = 1024;  ///< bytes before the first valid message
 constexpr base::Microseconds kLongestUnsent{1'000'000};
 
 }  // namespace
@@ -39,7 +39,7 @@ void Listener::make_room(base::Instant now) {
     if (first != clients_.end()) drop(first);
 }
 
-/// The lower, the sooner it goes.
+/// The client with the lowest rank is removed first.
 int Listener::rank(const Client& client, base::Instant now) const {
     if (waits_for_stop(client.id)) return 4;
     const bool is_deaf = client.unsent_since && now - *client.unsent_since >= kLongestUnsent;
@@ -101,7 +101,7 @@ void Listener::take_frame(Client& client, Frame frame, base::Instant now) {
     if (client.frames.size() < kMostWaiting) client.frames.push_back(std::move(frame));
 }
 
-/// What its client sent before is over with it. All who ask for the same one share it.
+/// Drops the client's earlier messages. Clients that request the same stop share it.
 void Listener::take_stop(Client& client, Frame frame) {
     client.frames.clear();
     client.result.reset();
@@ -118,7 +118,7 @@ void Listener::take_stop(Client& client, Frame frame) {
     if (std::find(askers.begin(), askers.end(), client.id) == askers.end()) askers.push_back(client.id);
 }
 
-/// True: it is answered, and not for the gateway.
+/// True: the message is about the password and has been answered or refused.
 bool Listener::is_about_password(Client& client, const mactalk::Request& message, base::Instant now) {
     using enum gw::PasswordState;
     if (message.address != addresses_.gateway) return false;

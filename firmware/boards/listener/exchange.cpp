@@ -16,12 +16,13 @@ using registers::gateway::OperatorWay;
 
 namespace {
 
-/// Samples are 8 or 16 bytes: over once nothing more comes.
+/// A sample message ends after this silence: its answer has 8 or 16 bytes.
 constexpr base::Microseconds kSilenceAfterSamples{20'000};
-constexpr std::size_t kMostNewcomers = 64;  ///< at once
-constexpr int kMostAtOnce = 64;             ///< messages that are answered at once
+constexpr std::size_t kMostNewcomers = 64;  ///< accepted per poll
+constexpr int kMostAtOnce = 64;             ///< messages answered per poll
 
-/// All of a user's clients are one operator; what comes over TCP or a terminal is one by itself.
+/// All clients of one user are one operator; each client on TCP, a terminal or a serial line is an operator
+/// of its own.
 faces::Sitter sitter_of(const Connections::Peer& peer, const std::string& port) {
     faces::Sitter who;
     who.peer = peer.number;
@@ -48,7 +49,7 @@ faces::Sitter sitter_of(const Connections::Peer& peer, const std::string& port) 
 
 }  // namespace
 
-/// A newcomer's first message is heard before the next one comes, who may take its place.
+/// Reads a new client's first message before the next one is accepted, which may take its place.
 void Exchange::look(base::Instant now) {
     for (std::size_t i = 0; i < kMostNewcomers; ++i) {
         auto newcomer = connections_.accept();

@@ -18,7 +18,7 @@ namespace {
 constexpr base::Microseconds kBriefly{150'000};
 constexpr base::Microseconds kStopFollowed{2'000'000};
 
-/// A hold may come to nothing: stop and safe go before it.
+/// A hold may remain without effect: stop and safe take precedence over it.
 bool is_hold(const Frame& frame) {
     return frame.message.reg == gw::COMMAND &&
            frame.message.value == static_cast<std::uint32_t>(gw::Command::hold);
@@ -36,7 +36,7 @@ Listener::~Listener() {
     while (!clients_.empty()) forget(clients_.begin());
 }
 
-/// An answer that is under way to somebody who is not there any more is not waited for long.
+/// The answer for a disconnected client is not waited for long.
 void Listener::gone(Id client, base::Instant now) {
     const auto found = clients_.find(client);
     if (found == clients_.end()) return;
@@ -122,8 +122,8 @@ void Listener::queue(Id client, std::span<const std::uint8_t> bytes, base::Insta
     if (!who.unsent_since) who.unsent_since = now;
 }
 
-/// While an answer is to come only the same client may go on, and only once; others wait for so long. Who has
-/// stopped asks before others whether it was done.
+/// While an answer is pending only the same client may continue, and only once; others wait until the
+/// timeout. A client that has sent a stop comes first, to ask for its outcome.
 Client* Listener::next_client(base::Instant now) {
     if (asked_ && now < asked_->until) {
         const auto asker = clients_.find(asked_->askers.front());
@@ -181,7 +181,7 @@ const Frame* Listener::begin_stop() {
     return &asked_->frame;
 }
 
-/// False: it does not matter that it is late.
+/// False: the message is not affected by a stop or delay.
 bool Listener::take_too_late(Client& client, const Frame& frame) {
     if (frame.purpose != Purpose::operates) return false;
     client.result = result_word(gw::Result::too_late, frame.message.reg);
@@ -209,7 +209,7 @@ void Listener::restarted() {
     for (auto& [id, client] : clients_) client.result.reset();
 }
 
-/// Why it is not carried out, whoever operates, as RESULT reads then.
+/// RESULT of a message that is refused whoever is the operator; empty: not refused.
 std::optional<std::uint32_t> Listener::refusal_for_anybody(const Client& client, const Frame& frame,
                                                            base::Instant now) const {
     const std::uint8_t reg = frame.message.reg;
@@ -227,7 +227,7 @@ std::optional<std::uint32_t> Listener::refusal(const Client& client, const Frame
     return result_word(gw::Result::seat_taken, frame.message.reg, faces::detail_of(verdict));
 }
 
-/// True: the gateway has nothing to do with it.
+/// True: the message was answered or refused here and is not for the gateway.
 bool Listener::is_dealt_with(Client& client, const Frame& frame, base::Instant now) {
     const mactalk::Request& message = frame.message;
     if (is_about_operating(client, frame, now)) return true;

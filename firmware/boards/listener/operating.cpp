@@ -1,4 +1,4 @@
-// Who operates, as a listener's clients see and change it.
+// The operator's seat, as a listener's clients see and change it.
 #include <chrono>
 
 #include "listener/listener.h"
@@ -11,7 +11,7 @@ namespace gw = registers::gateway;
 namespace mactalk = protocol::mactalk;
 using faces::Seat;
 
-/// True: it is answered, or refused.
+/// True: the message was answered or refused here.
 bool Listener::is_about_operating(Client& client, const Frame& frame, base::Instant now) {
     const mactalk::Request& message = frame.message;
     if (options_.operators == nullptr || message.address != addresses_.gateway) return false;
@@ -27,7 +27,7 @@ bool Listener::is_about_operating(Client& client, const Frame& frame, base::Inst
     return true;
 }
 
-/// What RESULT reads then.
+/// Returns the word for RESULT.
 std::uint32_t Listener::operate(Client& client, const Frame& frame, base::Instant now) {
     if (const auto refused = refusal_for_anybody(client, frame, now)) return *refused;
     Seat& seat = *options_.operators;

@@ -6,11 +6,10 @@
 #include "hal_mcu/stellaris/flash.h"
 #include "update/layout.h"
 
-/// With NPLC_UPDATE: what lies where in the chip's flash, and what loader and firmware both know of the
-/// board.
+/// With NPLC_UPDATE: the flash layout, and the constants shared by loader and firmware.
 namespace nplc::board {
 
-// The loader from 0 on, then two slots up to the end. The linker scripts have the same figures.
+// The loader at 0, then two slots up to the end. The linker scripts have the same figures.
 inline constexpr std::uint32_t kBoardId = 2;
 inline constexpr std::uint32_t kSlotsBegin = 12 * 1024;
 inline constexpr std::uint32_t kSlotBytes = 122 * 1024;

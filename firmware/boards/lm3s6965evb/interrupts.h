@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the vector table leads to; in main.cpp, which has the drivers.
+/// Targets of the vector table, defined in main.cpp with the drivers.
 namespace nplc::board {
 
 void on_systick();

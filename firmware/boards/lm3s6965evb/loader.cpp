@@ -1,4 +1,4 @@
-// What starts first on a board whose firmware can be renewed: it checks the image of a slot and starts it.
+// The boot loader of a board with firmware update: checks the image of a slot and starts it.
 
 #include "bare_metal/loader.h"
 #include "bare_metal/fault_reset.h"
@@ -23,7 +23,7 @@ extern "C" std::uint32_t link_stack_top;
 [[gnu::section(".vectors"), gnu::used]] constinit const core::VectorsOfCore vectors =
     bare_metal::vectors_to(&link_stack_top, core::nplc_fault);
 
-/// Until the image on trial sets its own, which it does when it has begun the chip.
+/// Watchdog timeout until the image on trial sets its own, after it has initialized the chip.
 constexpr base::Milliseconds kTrialStart{3'000};
 
 chip::OutputPins outputs(chip::kPortB, kOutputs);
@@ -31,7 +31,7 @@ chip::Flash flash(chip::chip_flash(), kSlotsBegin, 2 * kSlotBytes);
 
 void begin_watchdog() {
     static chip::Watchdog watchdog;
-    watchdog.feed();  // nothing from before counts
+    watchdog.feed();  // restarts the timeout
     watchdog.begin(kTrialStart);
 }
 

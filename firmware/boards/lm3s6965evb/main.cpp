@@ -1,4 +1,4 @@
-// The gateway on a Stellaris LM3S6965: which pins, ports and areas it has.
+// The gateway on a Stellaris LM3S6965: its pins, ports and storage areas.
 
 #include "bare_metal/fault_reset.h"
 #include "bare_metal/loader.h"
@@ -23,7 +23,7 @@ namespace {
 namespace core = hal_mcu::cortex_m;
 namespace chip = hal_mcu::stellaris;
 
-/// Of the 32 KiB: the settings behind the table, set-points and their recipes behind both.
+/// In the 32 KiB: the settings follow the tables, the set-points and recipes follow both.
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 8 * 1024};
 constexpr store::Area kSettingsArea{.begin = 16 * 1024, .slot_bytes = 256};
 constexpr store::Area kSetPointArea{.begin = 17 * 1024, .slot_bytes = 1024};
@@ -63,7 +63,7 @@ void begin_chip() {
     board_clock.begin(chip::kHertz);
     core::allow_interrupts();
     i2c.begin_bus();
-    static_cast<void>(memory.wait_until_ready());  // if it does not, mounting says so
+    static_cast<void>(memory.wait_until_ready());  // on a timeout, mounting reports the error
 }
 
 }  // namespace

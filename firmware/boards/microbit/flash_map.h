@@ -6,14 +6,14 @@
 #include "hal_mcu/nrf51/flash.h"
 #include "update/layout.h"
 
-/// What lies where in the chip's flash, and what loader and firmware both know of the board.
+/// The flash layout, and the constants shared by loader and firmware.
 namespace nplc::board {
 
 /// The last 20 pages: two tables of nine, two sets of settings of one.
 inline constexpr std::uint32_t kStorageBegin = 236 * 1024;
 inline constexpr std::uint32_t kStoragePages = 20;
 
-// With NPLC_UPDATE: the loader from 0 on, then two slots. The linker scripts have the same figures.
+// With NPLC_UPDATE: the loader at 0, then two slots. The linker scripts have the same figures.
 inline constexpr std::uint32_t kBoardId = 1;
 inline constexpr std::uint32_t kSlotsBegin = 12 * 1024;
 inline constexpr std::uint32_t kSlotBytes = 112 * 1024;

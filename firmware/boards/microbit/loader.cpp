@@ -1,5 +1,4 @@
-// What starts first on a micro:bit whose firmware can be renewed: it checks the image of a slot and starts
-// it.
+// The boot loader of a micro:bit with firmware update: checks the image of a slot and starts it.
 
 #include "bare_metal/loader.h"
 #include "bare_metal/fault_reset.h"
@@ -34,7 +33,7 @@ constexpr Vectors make() {
 
 [[gnu::section(".vectors"), gnu::used]] constinit const Vectors vectors = make();
 
-/// Until an image runs.
+/// Vector table until an image runs.
 constinit const core::VectorsOfCore own_faults = bare_metal::vectors_to(&link_stack_top, core::nplc_fault);
 
 chip::OutputPins outputs(kOutputs);

@@ -1,4 +1,4 @@
-// The gateway on a BBC micro:bit v1: which pins and areas it has, and whom its one UART serves.
+// The gateway on a BBC micro:bit v1: its pins and storage areas, and the use of its one UART.
 
 #include "bare_metal/fault_reset.h"
 #include "bare_metal/loader.h"
@@ -25,7 +25,7 @@ namespace chip = hal_mcu::nrf51;
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 9 * chip::Flash::kPage};
 constexpr store::Area kSettingsArea{.begin = 18 * chip::Flash::kPage, .slot_bytes = chip::Flash::kPage};
 
-// Of the chip; in brackets the edge connector's.
+// Chip pins; edge connector pins in brackets.
 constexpr std::uint8_t kButtonA = 17;
 constexpr chip::Uart::Pins kUsb{.receive = 25, .transmit = 24};         // of the interface chip
 constexpr chip::Uart::Pins kMotor{.receive = 2, .transmit = 3};         // [1, 0]

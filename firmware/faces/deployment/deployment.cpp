@@ -1,4 +1,4 @@
-// Orders as they come, and what is kept of them.
+// Received orders, and the stored record.
 #include "deployment/deployment.h"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ std::string Deployment::path(const char* file) const {
     return fmt::format("{}/{}/{}", settings_.folder, axis_.name(), file);
 }
 
-/// Who knows of a former table had a record too.
+/// A stored former table implies that there was a record.
 void Deployment::read_stored() {
     bool is_missing = false;
     bool has_no_former = false;
@@ -89,7 +89,7 @@ void Deployment::refuse(const std::string& text) {
     note(true, line);
 }
 
-/// Empty: nothing is against it.
+/// Empty: the order is accepted.
 std::string Deployment::why_not(const orders::SignedOrder& order) const {
     if (order.order.target != target_) return fmt::format("it is for {}", order.order.target);
     const orders::TrustedKeys trusted = orders::read_trusted(settings_.keys);
@@ -107,11 +107,11 @@ std::string Deployment::why_not(const orders::SignedOrder& order) const {
 
 void Deployment::take_order(std::string_view text, const Moment& moment) {
     moment_ = moment;
-    if (!client_ || text.empty()) return;  // empty: a retained one was cleared
+    if (!client_ || text.empty()) return;  // empty: a retained order was cleared
     const orders::OrderReading read = orders::read_order(text);
     if (!read.order) return refuse("it " + read.error);
     const std::string hash = hash_of(text);
-    if (hash == order_hash_ || text == next_order_) return;  // a retained one again
+    if (hash == order_hash_ || text == next_order_) return;  // a retained order received again
     if (!damage_.empty()) return refuse(damage_);
     if (const std::string why = why_not(*read.order); !why.empty()) return refuse(why);
     if (may_be_replaced()) return accept(*read.order, std::string(text));
@@ -121,7 +121,7 @@ void Deployment::take_order(std::string_view text, const Moment& moment) {
     next_order_ = text;
 }
 
-/// Nothing is under way that must come to its end first.
+/// No operation is in progress that must be completed first.
 bool Deployment::may_be_replaced() const {
     switch (stage_) {
         case Stage::idle:
@@ -176,7 +176,7 @@ void Deployment::take_piece(const orders::Hash& hash, std::size_t number,
     note(true, fmt::format("{}: {}", title_of(*order_), waits_));
 }
 
-/// What the firmware looks at in the upload is left to it.
+/// Checks made by the firmware during the upload are not repeated here.
 void Deployment::look_at_artifact() {
     const std::vector<std::uint8_t>& bytes = pieces_->artifact();
     const auto loaded = sequencer::Table::load(bytes);
@@ -196,7 +196,7 @@ void Deployment::save(const Record& next, std::vector<File> files, std::function
     disk_->write(saving_.files);
 }
 
-/// Writes that failed are tried again; until then nothing of what they are for is done.
+/// Failed writes are retried; until then nothing that depends on them is done.
 void Deployment::look_at_disk() {
     if (!saving_.record) return;
     if (!disk_->is_busy()) {
@@ -243,7 +243,7 @@ void Deployment::end(State state, const std::string& text) {
     move_to(state, text, Stage::idle);
 }
 
-/// What runs, and since when; that is kept too.
+/// Tracks which table runs and since when; this is stored too.
 void Deployment::follow_table() {
     const auto table = axis_.table();
     image_ = axis_.image(moment_.now);
@@ -262,7 +262,7 @@ void Deployment::follow_table() {
     if (stage_ == Stage::idle && has_news_) save(*record_, {}, [] {});
     if (record_->runs_sha256 == active_) return;
     has_news_ = true;
-    Record& record = *record_;  // goes to the disk with what is written next
+    Record& record = *record_;  // written with the next change
     record.runs_name.clear();
     if (is_active(record.former_sha256)) record.runs_name = record.former_name;
     if (is_ordered_active()) record.runs_name = order_->name;
@@ -307,7 +307,7 @@ void Deployment::tick(const Moment& moment) {
     }
 }
 
-/// As an earlier process has left it.
+/// Continues from the state left by an earlier process.
 void Deployment::take_up() {
     stage_ = Stage::idle;
     if (!damage_.empty() || !order_ || orders::is_final(record_->state)) return;

@@ -11,20 +11,20 @@
 
 namespace nplc::deployment {
 
-/// Writes files one after the other, each whole and on the disk before the next is begun, in a thread that is
-/// there for as long as that takes. What another thread waits for (a stop) does not wait for a disk.
+/// Writes files in sequence, each complete and on the disk before the next, in a temporary thread. Other
+/// threads (a stop) never wait for the disk.
 class Disk {
   public:
     Disk() = default;
-    /// Waits for what is being written.
+    /// Waits for the write in progress.
     ~Disk() { join(); }
     Disk(const Disk&) = delete;
     Disk& operator=(const Disk&) = delete;
 
     bool is_busy() const { return thread_.joinable(); }
-    /// Not while it is busy.
+    /// Must not be busy.
     void write(std::vector<File> files);
-    /// How it ended: empty, or why not, one line. Nothing: it has not, or was told already.
+    /// Result of the write: empty, or a one-line error. No value: not finished, or already returned.
     std::optional<std::string> take_end();
 
   private:
@@ -37,8 +37,8 @@ class Disk {
     std::thread thread_;
 };
 
-/// The content of a file of `most` bytes at the most. Nothing, and `is_missing`, where there is none; nothing
-/// without it where it cannot be read or is longer.
+/// Content of a file of at most `most` bytes. No value with `is_missing`: there is no file; without it:
+/// unreadable or too long.
 std::optional<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t most,
                                                    bool& is_missing);
 

@@ -1,4 +1,4 @@
-// A table's way into the store, to be the active one, and through its trial.
+// Storing a table, its activation and its trial.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ bool has_proof(std::span<const std::uint8_t> table) {
            std::equal(gw::kProofMark.begin(), gw::kProofMark.end(), table.end() - gw::kProofBytes);
 }
 
-/// Others do something, or it cannot be done just now.
+/// Temporary: another client is active, or it is not possible at present.
 bool passes(Result result) {
     switch (result) {
         case Result::busy:
@@ -50,7 +50,7 @@ std::string words_of(Result result, std::uint16_t detail) {
                       : std::string(gw::describe(result));
 }
 
-/// Why it will not be healthy at all; empty: nothing is against it.
+/// Why it cannot become healthy; empty: no reason.
 std::string_view obstacle(const faces::AxisImage& image) {
     switch (static_cast<gw::SafeReason>(image[gw::SAFE_REASON])) {
         case gw::SafeReason::no_proof:
@@ -97,7 +97,7 @@ void Deployment::leave_seat() {
     static_cast<void>(client_->submit({.kind = Command::Kind::leave_seat, .origin = moment_.now}));
 }
 
-/// It ran before it was stopped for the order. The axis's loop runs it only if nobody has stopped it since.
+/// Restarts the sequence that was stopped for the order, unless anyone has stopped it since.
 void Deployment::run_again() {
     if (command_ != 0 || moment_.now < not_before_) return;
     Command run = Command::of(gw::Command::run, moment_.now);
@@ -125,13 +125,13 @@ void Deployment::end_of_run(const faces::Completion& ended) {
     stage_ = after_run_;
 }
 
-/// What stopped it is not what lets it run again later: somebody may stand at the machine by then.
+/// After this stop the sequence is not restarted automatically: a person may be at the machine by then.
 void Deployment::forget_run(const std::string& why) {
     if (std::exchange(ran_, std::nullopt))
         note(true, fmt::format("the sequence, which was stopped for an order, is not run again: {}", why));
 }
 
-/// What both ways need: a gateway that tells, and a machine that may be disturbed. Sets why not.
+/// Common conditions: a responding gateway, and a machine that may be stopped. Sets the reason otherwise.
 bool Deployment::may_go_on() {
     const bool is_alive = moment_.now - image_.taken <= faces::AxisModel::kOld;
     const bool is_stopped = image_.run_state() == gw::RunState::stopped;
@@ -160,7 +160,8 @@ void Deployment::wait() {
     begin_job();
 }
 
-/// The former table is on the disk before the new one is begun. While one is on trial that is the one before.
+/// The former table is on the disk before the new one is begun. During a trial the former table stays the
+/// same.
 void Deployment::begin_job() {
     waits_.clear();
     const auto ask = [this] {
@@ -182,7 +183,7 @@ void Deployment::begin_job() {
     save(next, std::move(files), ask);
 }
 
-/// It is tried again later.
+/// Retried later.
 void Deployment::give_way(const std::string& why) {
     waits_ = why;
     command_ = 0;
@@ -261,7 +262,7 @@ void Deployment::try_activation(const faces::Completion& ended) {
     if (!passes(ended.result) || ended.result == Result::seat_taken) give_way(waits_);
 }
 
-/// It is the one that runs, as the axis itself tells.
+/// The axis reports this table as the active one.
 void Deployment::activated() {
     const bool runs_again = ran_ && settings_.activation == Activation::restart;
     if (!runs_again) ran_.reset();

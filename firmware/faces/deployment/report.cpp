@@ -1,4 +1,4 @@
-// What an axis says of itself.
+// The report of an axis.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -26,13 +26,13 @@ namespace {
 
 enum class Type : std::uint8_t { gauge, counter };
 
-/// A value of the model under the name that Prometheus's conventions ask for.
+/// A value of the model with its name by Prometheus's conventions.
 struct Row {
     std::string_view point;
-    std::string_view name;  ///< behind nanoplc_
+    std::string_view name;  ///< without the prefix nanoplc_
     Type type = Type::gauge;
     double factor = 1;      ///< to base units
-    bool has_unit = false;  ///< the axis's own, as a label
+    bool has_unit = false;  ///< the axis's unit, as a label
 };
 
 constexpr double kMilli = 1e-3;
@@ -117,7 +117,7 @@ struct Axis {
     std::string label;  ///< axis="x"
 };
 
-/// Backslash, quote and line feed, as the format asks.
+/// Escapes backslash, quote and line feed as required by the format.
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -217,7 +217,7 @@ void put_values(std::string& out, std::span<const Axis> axes, const OwnRow& row,
     }
 }
 
-/// Of axes whose table has some.
+/// For axes whose table has set-points.
 void put_set_points(std::string& out, std::span<const Axis> axes) {
     std::vector<Axis> some;
     std::copy_if(axes.begin(), axes.end(), std::back_inserter(some), [](const Axis& axis) {

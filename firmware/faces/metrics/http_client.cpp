@@ -42,7 +42,7 @@ void HttpClient::read() {
     }
 }
 
-/// The first line is all that counts: METHOD TARGET HTTP/1.x (RFC 9112 §3).
+/// Only the request line is evaluated: METHOD TARGET HTTP/1.x (RFC 9112 §3).
 void HttpClient::look() {
     const std::string_view head(in_.data(), have_);
     if (head.find(kEnd) == std::string_view::npos) {

@@ -8,11 +8,11 @@
 
 namespace nplc::metrics {
 
-/// A client of the metrics' server: the head of one request in, one answer out, then it is let go.
+/// A client of the metrics server: one request, one answer, then the connection is closed.
 class HttpClient {
   public:
     static constexpr base::Milliseconds kPatience{
-        10'000};  ///< for its request, and for it to take its answer
+        10'000};  ///< timeout of the request, and of sending the answer
 
     /// Owns the descriptor.
     HttpClient(int descriptor, base::Instant now) : descriptor_(descriptor), began_(now) {}
@@ -22,11 +22,11 @@ class HttpClient {
 
     int descriptor() const { return descriptor_; }
     short events() const;
-    /// After poll(): reads what has come, or sends on.
+    /// To be called after poll(): reads the request or continues the answer.
     void serve(short events, base::Instant now);
     base::Instant ends() const { return began_ + kPatience; }
     bool is_gone() const { return is_gone_; }
-    /// Its request asks for the metrics, which answer() then gives it.
+    /// The request is for the metrics, to be passed to answer().
     bool wants_metrics() const { return wants_metrics_; }
     void answer(const std::string& body);
 

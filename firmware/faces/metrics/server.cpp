@@ -19,15 +19,15 @@ namespace nplc::metrics {
 namespace {
 
 constexpr std::size_t kMostClients = 16;
-/// Somebody who scrapes does so at least as often.
+/// Longest scrape interval for keeping values up to date.
 constexpr base::Milliseconds kInterest{60'000};
 constexpr base::Milliseconds kBetweenWants = faces::AxisModel::kInterest / 2;
-/// An image older than this is asked for anew before the answer, and waited for.
+/// If the image is older than this, a new one is requested before the answer.
 constexpr base::Milliseconds kFresh{100};
 constexpr base::Milliseconds kImageWait{200};
 constexpr base::Milliseconds kLook{5};
 
-/// As of the other faces, or without "tcp:".
+/// In the form of the other faces, or without "tcp:".
 std::string place_of(const std::string& listen) {
     return listen.starts_with("tcp:") ? listen : "tcp:" + listen;
 }
@@ -39,7 +39,7 @@ std::string Server::mistake_in(const std::string& listen) {
     return "is no address with a port; write such as \"127.0.0.1:9464\" or \"[::]:9464\"";
 }
 
-/// What runs in the thread.
+/// The thread's main loop.
 class Server::Loop {
   public:
     Loop(Options options, const faces::Axes& axes) : options_(std::move(options)), axes_(axes) {}
@@ -119,7 +119,7 @@ bool Server::Loop::is_fresh(base::Instant now) const {
                        [now](faces::AxisModel* axis) { return now - axis->image(now).taken <= kFresh; });
 }
 
-/// One text for all who wait for it.
+/// One text for all waiting clients.
 void Server::Loop::answer(base::Instant now) {
     const bool is_wanted = std::any_of(clients_.begin(), clients_.end(),
                                        [](const auto& client) { return client->wants_metrics(); });
@@ -135,7 +135,7 @@ void Server::Loop::answer(base::Instant now) {
     }
 }
 
-/// One more than there is room for takes the place of the one that came first.
+/// A client beyond the limit replaces the oldest one.
 void Server::Loop::accept_one() {
     const int descriptor = listener_.accept().descriptor;
     if (descriptor < 0) return;

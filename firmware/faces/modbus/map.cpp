@@ -129,7 +129,7 @@ std::string_view word_of(Space space) {
     return kWords[static_cast<std::size_t>(space)];
 }
 
-/// "0.001 rev" of a register that counts thousandths.
+/// "0.001 rev" for a register in thousandths.
 std::string unit_in_steps(const ValueRow& row, const std::string& unit) {
     return row.steps > 1 ? fmt::format("{:g} {}", 1 / row.steps, unit) : unit;
 }

@@ -9,8 +9,7 @@
 
 namespace nplc::modbus {
 
-/// A serial line of this machine, or a pseudo-terminal that stands in for one. One that is pulled out is
-/// silent, and looked for again.
+/// A serial line of this machine, or a pseudo-terminal instead. An unplugged one is silent and is reopened.
 class RtuLine {
   public:
     struct Opened {
@@ -20,11 +19,11 @@ class RtuLine {
     static Opened open(const RtuServer::Options& options);
     virtual ~RtuLine() = default;
 
-    /// To sleep for bytes; negative: there is nothing to wait for, look again after a while.
+    /// For waiting; negative: no descriptor, poll later.
     virtual int descriptor() = 0;
     virtual std::size_t read(std::span<ports::ReceivedByte> out) = 0;
     virtual std::size_t write(std::span<const std::uint8_t> bytes) = 0;
-    /// Now and then: whether it is back.
+    /// To be called regularly: tries to reopen the line.
     virtual void look() = 0;
 };
 

@@ -18,7 +18,7 @@
 namespace nplc::modbus {
 namespace {
 
-/// An adapter hands characters over in lumps; a shorter pause within a frame is none.
+/// An adapter delivers characters in groups; a shorter pause does not end a frame.
 constexpr base::Milliseconds kLumps{20};
 constexpr base::Milliseconds kBriefly{1};
 
@@ -39,7 +39,7 @@ std::optional<faces::Command> stop_in(std::span<const std::uint8_t> pdu, base::I
 
 }  // namespace
 
-/// What runs in the thread.
+/// The thread's main loop.
 class RtuServer::Loop {
   public:
     Loop(const Options& options, const faces::Axes& axes) : options_(options), set_(axes, options.settings) {}
@@ -74,16 +74,16 @@ class RtuServer::Loop {
     std::array<pollfd, 2> polled_{};
 
     base::Instant heard_{};     ///< the last character
-    base::Instant empty_at_{};  ///< the line had nothing for us then
-    base::Instant arrived_{};   ///< what is read now came after that
-    std::uint8_t unit_ = 0;     ///< whose request is being served
+    base::Instant empty_at_{};  ///< last time when no data were pending
+    base::Instant arrived_{};   ///< data read now arrived after this
+    std::uint8_t unit_ = 0;     ///< slave of the request in progress
     std::array<std::uint8_t, kMostPdu> request_{};
     base::Instant request_arrived_{};
-    std::size_t request_size_ = 0;          ///< 0: none waits to be served
-    std::optional<base::Instant> asked_{};  ///< for an image
+    std::size_t request_size_ = 0;          ///< 0: no pending request
+    std::optional<base::Instant> asked_{};  ///< an image was requested
     std::optional<RtuFrame> frame_;         ///< the answer
-    std::size_t sent_ = 0;                  ///< of it
-    bool is_stale_ = false;                 ///< the master waits for it no more
+    std::size_t sent_ = 0;                  ///< sent bytes of it
+    bool is_stale_ = false;                 ///< the master no longer waits for it
     std::atomic<bool> ends_{false};
 };
 
@@ -150,7 +150,7 @@ void RtuServer::Loop::read(base::Instant now) {
     }
 }
 
-/// A new request ends the wait for the answer to the one before.
+/// A new request cancels the answer to the previous one.
 void RtuServer::Loop::note_frame(base::Instant now) {
     if (reader_.unit() == kBroadcast) {
         if (const auto stop = stop_in(reader_.pdu(), now)) set_.stop_all(*stop);
@@ -171,7 +171,7 @@ void RtuServer::Loop::note_frame(base::Instant now) {
     asked_.reset();
 }
 
-/// Once there is an image that is young enough.
+/// Answers once there is a recent image.
 void RtuServer::Loop::serve(base::Instant now) {
     if (!asked_) asked_ = now;
     if (!set_.is_fresh(now) && now - *asked_ < UnitSet::kImageWait) return;

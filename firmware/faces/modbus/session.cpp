@@ -15,7 +15,7 @@ using faces::Result;
 
 namespace {
 
-constexpr unsigned kMostWindow = 8;  ///< registers of the motor in one request
+constexpr unsigned kMostWindow = 8;  ///< motor registers per request
 constexpr std::array kCoilCommands{gw::Command::run,  gw::Command::stop, gw::Command::safe,
                                    gw::Command::hold, gw::Command::step, gw::Command::scan};
 
@@ -23,7 +23,7 @@ bool is_stop(std::uint16_t command) {
     return Command::of(static_cast<gw::Command>(command), {}).is_stop();
 }
 
-/// Others need what a PLC has not: an upload, kept settings.
+/// Other commands need functions that a PLC does not have: an upload, kept settings.
 bool is_for_plant(std::uint16_t command) {
     return command >= static_cast<std::uint16_t>(gw::Command::run) &&
            command <= static_cast<std::uint16_t>(gw::Command::hold);
@@ -36,13 +36,13 @@ std::int64_t in_steps(const ValueRow& row, double value) {
     return std::llround(std::clamp(value * row.steps, low, high));
 }
 
-/// One of the two words of a value, by the order that the settings say.
+/// One of the two words of a value, in the configured word order.
 std::uint16_t word_of(std::int64_t value, unsigned index, bool low_first) {
     const bool low = (index == 0) == low_first;
     return static_cast<std::uint16_t>(low ? value : value >> 16);
 }
 
-/// A value of 32 bits in two words of a request.
+/// A 32-bit value from two words of a request.
 std::uint32_t long_in(const Request& request, std::size_t word, bool low_first) {
     const std::uint32_t one = request.word(word);
     const std::uint32_t two = request.word(word + 1);
@@ -81,7 +81,7 @@ std::optional<Command> Unit::due(base::Instant now) {
 Session::Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell)
     : units_(units), name_(std::move(name)), bell_(bell), clients_(units.size()), staged_(units.size()) {}
 
-/// Whose master has gone is silent at once.
+/// If the session is the master, it counts as silent at once.
 Session::~Session() {
     for (const auto& unit : units_) {
         if (unit->master == number_) unit->heard = base::Instant{};
@@ -184,7 +184,7 @@ Word Session::why_word(const Look& look, std::uint16_t address) {
     return text_word(first.sentence, address - std::size_t{kWhyText});
 }
 
-/// The discrete inputs, a bit each.
+/// The discrete inputs as a bit mask.
 faces::PointValue Session::status_word(const Look& look) const {
     faces::PointValue word{Quality::good, 0};
     for (const ValueRow& row : value_rows()) {
@@ -252,7 +252,8 @@ Word Session::holding_word(const Look& look, std::uint16_t address) const {
     }
 }
 
-/// A level of 1 stops, always; all else goes by the change from 0, which must have been seen since the start.
+/// Level 1 of a stop coil always stops; all other coils act on the change from 0, which must have been seen
+/// since the start.
 std::optional<Answer> Session::write_coils(const Look& look, const Request& request) {
     if (request.address + request.count > kCoils)
         return Answer::refusal(request.function, Exception::illegal_address);
@@ -298,7 +299,7 @@ std::optional<Answer> Session::write_holding(const Look& look, const Request& re
     return begin(look, request, commands, command.has_value());
 }
 
-/// What command and command_number ask for, if anything.
+/// The command of the handshake registers, if any.
 std::optional<Command> Session::handshake(const Look& look, const Request& request) {
     Unit& unit = look.unit;
     const auto written = [&request](unsigned address) -> std::optional<std::uint16_t> {
@@ -326,7 +327,7 @@ std::optional<Command> Session::end_handshake(Unit& unit, Result result) {
     return std::nullopt;
 }
 
-/// What the handshake's command asks of the axis; nothing: it has ended already.
+/// The axis command for the handshake; empty: it has already ended.
 std::optional<Command> Session::ordered(const Look& look) {
     Unit& unit = look.unit;
     StagedSetPoints& staged = staged_[look.index];
@@ -357,7 +358,7 @@ std::optional<Command> Session::ordered(const Look& look) {
     }
 }
 
-/// Values of set-points wait for the command that takes them.
+/// Values of set-points are staged until a command takes them.
 void Session::stage(const Look& look, const Request& request) {
     StagedSetPoints& staged = staged_[look.index];
     for (unsigned i = 0; i < request.count; ++i) {
@@ -370,7 +371,7 @@ void Session::stage(const Look& look, const Request& request) {
     }
 }
 
-/// Registers of the motor, whole ones, low word first or high word first as the settings say.
+/// Complete motor registers, in the configured word order.
 std::optional<Answer> Session::use_window(const Look& look, const Request& request) {
     const auto refuse = [&request](Exception exception) {
         return Answer::refusal(request.function, exception);

@@ -22,7 +22,7 @@ std::int32_t for_plc(const SetPoint& point, std::int32_t value) {
     return static_cast<std::int32_t>(std::llround(std::clamp(number, kLowest, kHighest)));
 }
 
-/// The ends of the range, and what is wanted already, come back as they were.
+/// The ends of the range, and the present wanted value, are converted back exactly.
 std::int32_t from_plc(const SetPoint& point, std::int32_t number, std::int32_t wanted) {
     for (const std::int32_t exact : {wanted, point.lowest, point.highest, point.initial}) {
         if (for_plc(point, exact) == number) return exact;

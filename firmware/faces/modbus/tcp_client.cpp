@@ -10,7 +10,7 @@
 namespace nplc::modbus {
 namespace {
 
-/// For the rest of a message, and for a client to take its answer.
+/// Timeout for the rest of a message, and for sending an answer.
 constexpr base::Milliseconds kPatience{10'000};
 constexpr int kMostAtOnce = 8;
 
@@ -72,7 +72,7 @@ void TcpClient::serve(short events, base::Instant now) {
     if (!session_.is_waiting() && now - began_ > kPatience && (have_ != 0 || !out_.empty())) is_gone_ = true;
 }
 
-/// Of all axes, since a message may be for any.
+/// For all axes, since a message may be for any of them.
 bool TcpClient::waits_for_image(base::Instant now) {
     const bool is_old = !set_.is_fresh(now);
     if (is_old && !asks_image_) image_asked_ = now;
@@ -84,7 +84,7 @@ bool TcpClient::waits_for_image(base::Instant now) {
 bool TcpClient::serve_one(base::Instant now) {
     if (session_.is_waiting() || have_ < kHead) return false;
     const std::size_t length = std::size_t{in_[4]} << 8 | in_[5];
-    // Not Modbus, or out of step: nobody can find the next message.
+    // Not Modbus, or out of sync: the next message cannot be found.
     if (in_[2] != 0 || in_[3] != 0 || length < 2 || length > kMostPdu + 1) {
         is_gone_ = true;
         return false;
@@ -93,7 +93,7 @@ bool TcpClient::serve_one(base::Instant now) {
     if (have_ < size || waits_for_image(now)) return false;
     heard_ = now;
     std::copy_n(in_.begin(), kHead, head_.begin());
-    // What a client that has gone wanted is not carried out: it is as old as can be.
+    // A message of a disconnected client counts as infinitely old, so that it is not carried out.
     const Moment moment{.now = now, .arrived = has_left_ ? base::Instant{} : arrived_};
     const auto answer = session_.serve(in_[6], std::span(in_).subspan(kHead, length - 1), moment);
     std::copy(in_.begin() + static_cast<std::ptrdiff_t>(size),

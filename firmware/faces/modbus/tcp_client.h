@@ -9,23 +9,23 @@
 
 namespace nplc::modbus {
 
-/// A client of the TCP server: whole messages in, answers out, one at a time.
+/// A client of the TCP server: complete messages in, answers out, one at a time.
 class TcpClient {
   public:
-    /// Owns the descriptor. `since.arrived`: it had sent nothing then.
+    /// Owns the descriptor. `since.arrived`: it had sent nothing at that time.
     TcpClient(int descriptor, UnitSet& set, const std::string& name, faces::Bell& bell, const Moment& since);
     ~TcpClient();
     TcpClient(const TcpClient&) = delete;
     TcpClient& operator=(const TcpClient&) = delete;
 
     int descriptor() const { return descriptor_; }
-    /// What to poll for. A client that does not take its answers is not read either.
+    /// Events for poll(). A client that does not read its answers is not read either.
     short events() const;
     void serve(short events, base::Instant now);
-    /// When serve() is wanted without an event.
+    /// When serve() is needed without an event.
     base::Instant due(base::Instant now) const;
     bool is_gone() const { return is_gone_; }
-    /// Its last whole message.
+    /// Time of its last complete message.
     base::Instant heard() const { return heard_; }
     std::uint64_t number() const { return session_.number(); }
 
@@ -44,16 +44,16 @@ class TcpClient {
     Session session_;
     bool is_gone_ = false;
     base::Instant heard_;
-    base::Instant began_{};    ///< the message that is not whole, or the answer that is not taken
-    base::Instant silent_at_;  ///< nothing was to be read then
-    base::Instant arrived_{};  ///< what was read last came after that
-    bool has_more_ = false;    ///< messages that are whole wait for their turn
-    bool has_left_ = false;    ///< it has closed its end
+    base::Instant began_{};    ///< start of an incomplete message, or of an unsent answer
+    base::Instant silent_at_;  ///< last time when no data were pending
+    base::Instant arrived_{};  ///< the last data read arrived after this
+    bool has_more_ = false;    ///< complete messages are pending
+    bool has_left_ = false;    ///< it has closed its side
     base::Instant image_asked_{};
     bool asks_image_ = false;
     std::array<std::uint8_t, 4 * kMostFrame> in_{};
     std::size_t have_ = 0;
-    std::array<std::uint8_t, kHead> head_{};  ///< of the request that is being served
+    std::array<std::uint8_t, kHead> head_{};  ///< of the request in progress
     std::vector<std::uint8_t> out_;
 };
 

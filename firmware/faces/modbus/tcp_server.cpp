@@ -13,14 +13,14 @@
 #include "unit_set.h"
 
 namespace nplc::modbus {
-/// What runs in the thread.
+/// The thread's main loop.
 class TcpServer::Loop {
   public:
     Loop(const Options& options, const faces::Axes& axes) : options_(options), set_(axes, options.settings) {}
     Loop(const Loop&) = delete;
     Loop& operator=(const Loop&) = delete;
 
-    /// Empty, or what went wrong.
+    /// Empty, or an error.
     std::string listen() {
         std::string error = listener_.open(options_.listen);
         if (error.empty()) set_.join(bell_);
@@ -45,7 +45,7 @@ class TcpServer::Loop {
     UnitSet set_;
     std::vector<std::unique_ptr<TcpClient>> clients_;
     std::vector<pollfd> polled_;
-    base::Instant nobody_at_ = clock_.now();  ///< no client waited to come in
+    base::Instant nobody_at_ = clock_.now();  ///< last time when no client was connecting
     hal_linux::TcpListener listener_;
     std::atomic<bool> ends_{false};
 };

@@ -7,14 +7,14 @@
 
 namespace nplc::modbus {
 
-/// What the servers of all lines have: the axes as slaves, and one of ours at each desk that stops a machine
-/// whose master has gone silent. Belongs to a server's thread.
+/// Shared by the servers of all lines: the axes as slaves, and a client at each command desk that stops a
+/// machine whose master is silent. Used by a server's thread.
 class UnitSet {
   public:
-    /// An image older than this is asked for anew before an answer, and waited for.
+    /// If the image is older than this, a new one is requested before an answer.
     static constexpr base::Milliseconds kFresh{50};
     static constexpr base::Milliseconds kImageWait{100};
-    /// Between two looks at masters and lines. What came between two is as old as the time between.
+    /// Poll interval of masters and lines. Data that arrived between two polls are as old as this interval.
     static constexpr base::Milliseconds kTick{250};
 
     UnitSet(const faces::Axes& axes, const Settings& settings) : axes_(axes), settings_(settings) {}
@@ -22,13 +22,13 @@ class UnitSet {
     UnitSet(const UnitSet&) = delete;
     UnitSet& operator=(const UnitSet&) = delete;
 
-    /// Once the server has its line; `bell` wakes its thread.
+    /// To be called once the server has its line; `bell` wakes its thread.
     void join(faces::Bell& bell);
 
     std::vector<std::unique_ptr<Unit>>& units() { return units_; }
     bool is_fresh(base::Instant now) const;
     void watch_masters(base::Instant now);
-    /// To all axes, for everybody: a stop.
+    /// Sends a stop to all axes.
     void stop_all(const faces::Command& command);
     bool has_master(std::uint64_t session) const;
 

@@ -23,7 +23,8 @@ struct Range {
     std::uint8_t first;
     std::uint8_t count;
 };
-/// Reading FIRED_SCAN has an effect, and FIRED would cost a walk through the table.
+/// Not read: FIRED_SCAN, since reading it has a side effect, and FIRED, which would need a pass over the
+/// table.
 constexpr Range kImaged[] = {
     {gw::IDENTITY, 9},
     {gw::STATUS, gw::STOP_SINCE + 1 - gw::STATUS},
@@ -40,7 +41,7 @@ Completion completion_of(std::uint32_t word) {
     return {.result = static_cast<Result>(word & 0xFF), .detail = static_cast<std::uint16_t>(word >> 16)};
 }
 
-/// The motor's errors without what else ERR_STAT holds.
+/// The motor's error bits, without the other bits of ERR_STAT.
 std::uint32_t errors_of(const AxisImage& image) {
     const MotorValue& word = image.of_motor(MotorItem::error_word);
     return word.is_known ? static_cast<std::uint32_t>(word.value) & causes::error_bits(model_of(image)) : 0;
@@ -68,7 +69,7 @@ std::array<std::uint8_t, 4> bytes_of(std::uint32_t value) {
     return bytes;
 }
 
-/// What the user's port would be sent for it.
+/// The equivalent message on the user port.
 protocol::mactalk::Request motor_request(const Command& command) {
     const bool writes = command.kind != Kind::read_motor;
     return {.kind = writes ? protocol::mactalk::Kind::write : protocol::mactalk::Kind::read,
@@ -108,9 +109,9 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     if (wall >= image_.taken + AxisModel::kPeriod) take_image(controller);
 }
 
-/// For who asks why nothing moves. An order waits while a register is read, so it is seldom: anew where the
-/// shaft has come to rest or an error has come or gone. What a drive of another family tells, its driver has
-/// kept.
+/// For clients that ask for the cause of a standstill. An order waits while a register is read, so this is
+/// done rarely: again when the shaft has stopped or the error bits have changed. For a drive of another
+/// family its driver has the data.
 void AxisLoop::survey() {
     constexpr base::Milliseconds kBetween{20'000};
     constexpr base::Milliseconds kAtRest{2'000};
@@ -169,7 +170,7 @@ void AxisLoop::look_at_control(const gateway::Controller& controller) {
     seat_.look(wall_);
 }
 
-/// Nobody waits any more for what they had begun.
+/// Their clients no longer wait for these operations.
 void AxisLoop::let_go(gateway::Controller& controller) {
     base::Ring<std::uint64_t, CommandDesk::kMostClients> leavers;
     if (!model_.desk().take_leavers(leavers)) come_back_ = true;
@@ -195,7 +196,7 @@ void AxisLoop::drop(gateway::Controller& controller) {
     }
 }
 
-/// Of the user's port between two polls, or of a face.
+/// A stop of the user port between two polls, or of a face.
 void AxisLoop::look_for_stops(gateway::Controller& controller) {
     gateway::OwnRegisters& own = controller.registers();
     const std::uint8_t writes = own.writes_begun();
@@ -219,7 +220,7 @@ void AxisLoop::take_stops(gateway::Controller& controller) {
     }
 }
 
-/// The machine stops first; then what others gave before is told that it came to nothing.
+/// First stops the machine; then ends the earlier commands of others as too_late.
 void AxisLoop::carry_out_stop(gateway::Controller& controller, const Work& stop) {
     controller.user_port().cancel_own_write();
     if (work_ && !ended_ && work_->command.operates()) {
@@ -241,7 +242,8 @@ void AxisLoop::carry_out_stop(gateway::Controller& controller, const Work& stop)
     report();
 }
 
-/// A stop is done when the motor has confirmed it, a hold when the sequence is held with the motor stopped.
+/// A stop is complete when the motor has confirmed it, a hold when the sequence is held with the motor
+/// stopped.
 void AxisLoop::follow_stops(gateway::Controller& controller) {
     const gateway::Gateway& sequence = controller.sequence();
     for (; !carried_out_.empty() && !told_stop_; carried_out_.pop()) {
@@ -263,7 +265,7 @@ void AxisLoop::take_others(gateway::Controller& controller) {
         if (!work_) {
             if (!model_.desk().take(work_, false)) come_back_ = true;
             if (!work_) return;
-            if (work_->command.is_stop()) {  // it came since take_stops() looked
+            if (work_->command.is_stop()) {  // it arrived after take_stops()
                 const Work stop = *std::exchange(work_, std::nullopt);
                 carry_out_stop(controller, stop);
                 continue;
@@ -309,7 +311,7 @@ void AxisLoop::begin(gateway::Controller& controller) {
             return;
         case Kind::write_own:
             if (command.reg == gw::SET_POINT_WRITE) return begin_change(controller);
-            // A person's write that is under way is finished first.
+            // A user port write in progress is completed first.
             if (!controller.user_port().awaits_own_write()) begin_own(controller);
             return;
         case Kind::write_motor:
@@ -319,7 +321,7 @@ void AxisLoop::begin(gateway::Controller& controller) {
     }
 }
 
-/// It is stored beside what else is asked, however long that takes; the next one waits.
+/// Stored in parallel to other commands, however long that takes; the next change waits.
 void AxisLoop::begin_change(gateway::Controller& controller) {
     if (change_) return;
     change_ = std::exchange(work_, std::nullopt);
@@ -369,7 +371,8 @@ void AxisLoop::begin_motor(gateway::Controller& controller) {
     }
 }
 
-/// A drive of another family has no ERR_STAT to write. A link that was lost is the sequence's to acknowledge.
+/// A drive of another family has no ERR_STAT to write. The loss of the link is acknowledged by the sequence
+/// only.
 void AxisLoop::reset_drive(gateway::Controller& controller) {
     motor::Motor& motor = controller.motor();
     if (motor.link() != motor::Link::up)
@@ -399,7 +402,7 @@ void AxisLoop::go_on(gateway::Controller& controller) {
     }
 }
 
-/// ERR_STAT has been read: its settings stay as they are.
+/// ERR_STAT has been read: its setting bits are kept.
 void AxisLoop::clear_error() {
     const registers::Model model = model_of(image_);
     const bool longword = registers::bytes_of(model, *registers::find(model, registers::ERR_STAT)) == 4;
@@ -410,7 +413,7 @@ void AxisLoop::clear_error() {
                    .value = reader_.value() & registers::settings_of_err_stat(model)});
 }
 
-/// RESULT stays what the user's port was told.
+/// RESULT stays that of the user port.
 void AxisLoop::go_on_own(gateway::Controller& controller) {
     gateway::OwnRegisters& own = controller.registers();
     if (own.writes_begun() != own_write_) {
@@ -425,7 +428,7 @@ void AxisLoop::go_on_own(gateway::Controller& controller) {
     ended_ = completion_of(progress.word());
 }
 
-/// Of a stop, which ends at once.
+/// Executes a stop, which ends at once.
 Completion AxisLoop::write_own(gateway::Controller& controller, const Command& command) {
     gateway::OwnRegisters& own = controller.registers();
     const std::uint32_t result = own.result();

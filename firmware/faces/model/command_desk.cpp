@@ -11,7 +11,7 @@ bool is_hold(const Command& command) {
     return command.value == static_cast<std::uint32_t>(registers::gateway::Command::hold);
 }
 
-/// Keeps in order what `stays` says.
+/// Removes entries that do not satisfy `stays`, keeping the order.
 template <class Waiting, std::size_t capacity, class Stays>
 void sift(base::Ring<Waiting, capacity>& ring, Stays stays) {
     for (std::size_t left = ring.size(); left != 0; --left) {
@@ -51,7 +51,7 @@ CommandDesk::Client::~Client() {
     desk_.leave(place_);
 }
 
-/// Its place is free when the loop has taken note.
+/// Its place becomes free when the loop has noticed it.
 void CommandDesk::leave(std::size_t which) {
     {
         const std::lock_guard lock(mutex_);
@@ -95,7 +95,7 @@ std::optional<Completion> CommandDesk::Client::take() {
     return completion;
 }
 
-/// What only reads stays, unless `all`.
+/// Reads are kept, unless `all`.
 void CommandDesk::drop_waiting(Place& place, bool all) {
     sift(place.waiting, [&](const Waiting& waiting) {
         if (!all && !waiting.command.operates()) return true;
@@ -105,7 +105,7 @@ void CommandDesk::drop_waiting(Place& place, bool all) {
     });
 }
 
-/// Who does not take them loses the oldest ones.
+/// If a client does not take completions, the oldest ones are lost.
 void CommandDesk::complete(Place& place, const Completion& completion) {
     if (place.ended.full()) place.ended.pop();
     place.ended.push(completion);

@@ -8,7 +8,7 @@
 namespace nplc::faces {
 namespace {
 
-constexpr std::int64_t kStandby = 5;  ///< increments that a shaft may swing (003 §VII 02h)
+constexpr std::int64_t kStandby = 5;  ///< increments by which a shaft may oscillate (003 §VII 02h)
 constexpr base::Milliseconds kTurning{500};
 constexpr base::Milliseconds kStuck{1'000};
 
@@ -18,7 +18,7 @@ std::optional<causes::MidiState> MidiWatch::look(const motor::AnyDriver& driver,
     const auto* motor = driver.get<motor::MidiMotor>();
     if (motor == nullptr) return std::nullopt;
     const motor::MidiDrive& drive = motor->drive();
-    const bool is_new = wall - std::exchange(looked_, wall) > kTurning;  // nobody has asked for a while
+    const bool is_new = wall - std::exchange(looked_, wall) > kTurning;  // no request for a while
     if (is_new || std::abs(std::int64_t{drive.position()} - place_) > kStandby) {
         place_ = drive.position();
         moved_ = is_new ? wall - kTurning : wall;

@@ -64,7 +64,7 @@ MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Inst
     return State::under_way;
 }
 
-/// A write that failed or was dropped may have been executed: it is not repeated.
+/// A failed or dropped write may have been executed: it is not repeated.
 MotorReader::State MotorReader::take(gateway::Controller& controller, base::Instant now) {
     const bool lost = controller.user_port().awaits_motor();
     const motor::AccessState state = controller.motor().access_state();
@@ -89,7 +89,7 @@ base::Instant MotorReader::next(const gateway::Controller& controller, base::Ins
     return std::min(patience, std::max(now + kBusy, ended_ + pause(controller)));
 }
 
-/// Position, speed, position, and then the torque or, every second time, one of the others.
+/// Position, speed, position, and then alternately the torque and one of the others.
 void MotorReader::choose_item(const AxisImage& image) {
     constexpr unsigned kFrequent = 2;
     constexpr unsigned kOthers = kMotorItems - kFrequent;
@@ -138,7 +138,7 @@ std::optional<Survey> MotorReader::take_survey() {
 }
 
 void MotorReader::note_item(AxisImage& image, base::Instant wall) {
-    constexpr std::int32_t kMotion = 8;  // counts that noise does not make
+    constexpr std::int32_t kMotion = 8;  // counts; more than noise
     const MotorItem item = *item_;
     item_.reset();
     const registers::Register& found = *register_of(item, model_of(image));

@@ -17,7 +17,7 @@ namespace {
 namespace gw = registers::gateway;
 using gw::RunState;
 
-/// Frequent values of the motor are good for 1 s, the others, which come by turns, for 10 s.
+/// Frequent values of the motor are valid for 1 s, the others, which are read in turns, for 10 s.
 constexpr base::Milliseconds kFrequent{1'000};
 constexpr base::Milliseconds kSeldom{10'000};
 
@@ -94,7 +94,7 @@ PointValue why(const AxisImage& image, base::Instant now, const Scaling&) {
     return plain(image, now, image.why);
 }
 
-/// Counts to the axis's units.
+/// Converts counts to the axis's units.
 double per_count(const AxisImage& image, const Scaling& scaling) {
     return scaling.per_revolution / registers::scale_of(model_of(image)).counts_per_rev;
 }
@@ -104,7 +104,7 @@ PointValue length(const AxisImage& image, base::Instant now, const Scaling& scal
     return motor(image, now, item, per_count(image, scaling));
 }
 
-/// V_IST is in counts a sample.
+/// V_IST is in counts per sample.
 PointValue velocity(const AxisImage& image, base::Instant now, const Scaling& scaling) {
     const double samples = registers::scale_of(model_of(image)).samples_per_second;
     return motor(image, now, MotorItem::velocity, per_count(image, scaling) * samples);

@@ -12,7 +12,7 @@ namespace gw = registers::gateway;
 
 constexpr std::size_t kUploadPiece = 128;
 constexpr base::Milliseconds kUploadPause{20};
-/// The store erases, the motor comes to rest.
+/// Timeout of an erase of the store, and of the motor's standstill.
 constexpr base::Milliseconds kLongestUpload{10'000};
 
 }  // namespace
@@ -81,7 +81,7 @@ std::optional<Command> Upload::look_at_store(const AxisImage& image) {
     const auto phase = static_cast<gw::StorePhase>(state & 0xFF);
     if (phase == gw::StorePhase::done) go_on();
     if (phase == gw::StorePhase::idle)
-        fail(Result::too_late, 0);  // somebody has given it up: safe, or a reset
+        fail(Result::too_late, 0);  // aborted by another client: safe, or a reset
     if (phase == gw::StorePhase::failed)
         fail(static_cast<Result>(state >> 8 & 0xFF), static_cast<std::uint16_t>(state >> 16));
     return std::nullopt;

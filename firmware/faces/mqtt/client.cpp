@@ -24,14 +24,14 @@ constexpr int kKeepAliveSeconds = 10;
 constexpr base::Milliseconds kFirstPause{1'000};
 constexpr base::Milliseconds kLongestPause{30'000};
 constexpr base::Milliseconds kBetweenQuestions{2'000};
-/// A broker that has not taken the connection by then is away.
+/// Connection timeout.
 constexpr base::Milliseconds kPatience{10'000};
-/// A look that took so much longer than it was to: the process was halted, and what comes is as old.
+/// If a loop pass is late by more than this, the process was halted, and received messages may be as old.
 constexpr base::Milliseconds kHalted{500};
 
 }  // namespace
 
-/// What runs in the thread.
+/// The thread's main loop.
 class Client::Loop {
   public:
     Loop(Options options, const faces::Axes& axes)
@@ -39,7 +39,7 @@ class Client::Loop {
     Loop(const Loop&) = delete;
     Loop& operator=(const Loop&) = delete;
 
-    /// One line, if they cannot be read.
+    /// One-line error if they cannot be read.
     std::string read_secrets() {
         broker::Secrets secrets = broker::read_secrets(options_);
         password_ = std::move(secrets.password);
@@ -80,23 +80,23 @@ class Client::Loop {
     faces::Bell bell_{[this] { wakeup_.ring(); }};
     EdgeNode node_;
     OrderNode orders_;
-    std::set<int> order_questions_;  ///< subscriptions of it that wait for their answer
+    std::set<int> order_questions_;  ///< its subscriptions without an answer yet
     broker::Session session_{nullptr, ::mosquitto_destroy};
-    base::Instant begun_{};   ///< the connection
-    base::Instant looked_{};  ///< before the last look
-    bool is_late_ = false;    ///< what comes may have waited
-    bool has_heard_ = false;  ///< in this look
+    base::Instant begun_{};   ///< start of the connection
+    base::Instant looked_{};  ///< start of the last pass
+    bool is_late_ = false;    ///< messages may have been delayed
+    bool has_heard_ = false;  ///< a message was received in this pass
     base::Instant next_try_{};
     base::Milliseconds pause_ = kFirstPause;
-    std::string told_;  ///< why there is no connection
+    std::string told_;  ///< last reported connection error
     bool is_subscribed_ = false;
-    int question_ = 0;  ///< the message whose answer confirms what was sent before it; 0: none
+    int question_ = 0;  ///< message id whose acknowledgement confirms earlier messages; 0: none
     base::Instant asked_{};
-    std::string refusal_;  ///< of the broker
+    std::string refusal_;  ///< the broker's reason
     std::atomic<bool> ends_{false};
 };
 
-/// Empty, or why the library does not take it.
+/// Empty, or the library's error.
 std::string Client::Loop::set_up() {
     mosquitto* const session = session_.get();
     ::mosquitto_connect_callback_set(session, on_connect);
@@ -126,7 +126,7 @@ void Client::Loop::connect() {
     if (code != MOSQ_ERR_SUCCESS) lose(reason_of(code));
 }
 
-/// The broker's own words or the library's, where there are any.
+/// The error text of the broker or the library, if any.
 std::string Client::Loop::reason_of(int code) const {
     return refusal_.empty() ? broker::reason_of(code) : refusal_;
 }
@@ -143,7 +143,7 @@ void Client::Loop::lose(const std::string& why) {
     told_ = text;
 }
 
-/// In order, the death said aloud: the broker keeps the will to itself then.
+/// Orderly disconnect with an explicit death message: the broker then does not publish the will.
 void Client::Loop::leave() {
     if (!session_) return;
     const std::string death = node_.death_payload(moment().milliseconds);
@@ -192,8 +192,8 @@ void Client::Loop::look() {
     ask();
 }
 
-/// An answer to a subscription says that all before it has arrived: data goes out with quality 0, as
-/// Sparkplug wants it, and has no answer of its own.
+/// The answer to a subscription confirms that all earlier messages have arrived: data are sent with quality
+/// 0, as required by Sparkplug, and are not acknowledged.
 void Client::Loop::ask() {
     const base::Instant now = clock_.now();
     if (!is_subscribed_ || question_ != 0 || !node_.store().wants_asking() ||
@@ -245,12 +245,12 @@ void Client::Loop::on_connect(mosquitto* session, void* self, int code) {
         ::mosquitto_subscribe(session, &loop.question_, topic.c_str(), 1);
 }
 
-/// What the library knows of an error of TLS.
+/// TLS errors from the library's log.
 void Client::Loop::on_log(mosquitto*, void* self, int level, const char* text) {
     if (level == MOSQ_LOG_ERR) of(self).refusal_ = text;
 }
 
-/// The answer to the last of them: all are taken.
+/// The answer to the last subscription: all are complete.
 void Client::Loop::on_subscribe(mosquitto*, void* self, int id, int count, const int* granted) {
     Loop& loop = of(self);
     constexpr int kRefused = 128;

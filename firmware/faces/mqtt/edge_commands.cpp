@@ -1,4 +1,4 @@
-// What hosts ask for.
+// Commands from hosts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void EdgeNode::submit(Device& device, const std::string& what, const faces::Comm
     device.sets_values = command.reg == gw::SET_POINT_WRITE;
 }
 
-/// Retained ones, those that may have waited in a queue, and the same one again.
+/// Rejects retained commands, those that may have waited in a queue, and repeated ones.
 bool EdgeNode::is_too_late(Device& device, const Given& given) {
     const auto limit = static_cast<std::uint64_t>(options_.command_age.count());
     const std::uint64_t apart =
@@ -74,7 +74,7 @@ bool EdgeNode::is_too_late(Device& device, const Given& given) {
     return false;
 }
 
-/// One command a message, or values of set-points, which are one change.
+/// One command per message, or values of set-points, which are one change.
 void EdgeNode::take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
                                    std::uint64_t milliseconds) {
     std::vector<const Metric*> values;
@@ -126,7 +126,7 @@ bool EdgeNode::is_of_recipe(std::size_t index, const Metric& metric) const {
     return items.size() > devices_[index].points && metric.alias == alias_of(index, items.size() - 1);
 }
 
-/// All of them are one change, whole or not at all; or one recipe is loaded.
+/// All values are one change, carried out as a whole or not at all; or one recipe is loaded.
 void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric*>& metrics,
                                const Given& given) {
     Device& device = devices_[index];

@@ -35,7 +35,7 @@ constexpr std::uint64_t kResultAlias = 901;
 constexpr std::uint64_t kTextAlias = 902;
 constexpr std::size_t kMostOfMessage = 100;
 constexpr int kMostMessages = 50;
-/// Sparkplug 3.0 has no list; these are OPC's, as hosts in the field have them.
+/// Sparkplug 3.0 does not define values; these are OPC's, which hosts use.
 constexpr std::int32_t kGood = 192;
 constexpr std::int32_t kStale = 500;
 constexpr std::int32_t kBad = 0;
@@ -90,7 +90,7 @@ void EdgeNode::begin_session() {
     wants_to_leave_ = false;
 }
 
-/// Without a seq, with the bdSeq of the birth that it ends (§6.4.9).
+/// Without a seq, with the bdSeq of its birth (§6.4.9).
 std::string EdgeNode::death_payload(std::uint64_t milliseconds) const {
     Metric metric;
     metric.name = "bdSeq";
@@ -184,7 +184,7 @@ Metric EdgeNode::why_metric(std::size_t index) const {
     return metric;
 }
 
-/// What has changed since the last look; the first one is for the birth.
+/// Finds changes since the last call; the first call is for the birth.
 void EdgeNode::look(std::size_t index, const Moment& moment) {
     Device& device = devices_[index];
     std::shared_ptr<const faces::Findings> why;
@@ -208,7 +208,7 @@ void EdgeNode::look(std::size_t index, const Moment& moment) {
     }
 }
 
-/// Another table or recipe: what there is to be told is another, so the device is born anew.
+/// Another table or recipe changes the metrics, so the device is born again.
 void EdgeNode::follow_set_points(Device& device) {
     const auto book = device.axis->set_points();
     if (device.book == book) return;
@@ -226,7 +226,7 @@ void EdgeNode::follow_set_points(Device& device) {
     device.last.resize(std::min(device.last.size(), device.points));
 }
 
-/// Its item is there no more.
+/// Its item no longer exists.
 bool EdgeNode::is_outdated(const Record& record) const {
     const Device& device = devices_[record.device];
     return record.point >= device.points && record.edition != device.edition;
@@ -244,11 +244,11 @@ Metric EdgeNode::metric_of(const Record& record) const {
     return metric;
 }
 
-/// Messages of one device each, in the order in which things happened.
+/// Messages of one device each, in the order of events.
 void EdgeNode::flush(const Publish& publish, std::uint64_t milliseconds) {
     for (int i = 0; i < kMostMessages && store_.has_unsent(); ++i) {
         const std::size_t device = store_.next().device;
-        // Its axis is dead, and its birth will have the values; or what it was of is no more.
+        // Its axis is dead, and its next birth will have the values; or the item no longer exists.
         if (!devices_[device].is_born || is_outdated(store_.next())) {
             store_.drop_next();
             continue;
@@ -267,7 +267,7 @@ void EdgeNode::flush(const Publish& publish, std::uint64_t milliseconds) {
     }
 }
 
-/// Of the device's last command.
+/// Result of the device's last command.
 void EdgeNode::report(std::size_t index, const Publish& publish, std::uint64_t milliseconds) {
     Device& device = devices_[index];
     while (device.client) {
@@ -322,8 +322,8 @@ void EdgeNode::tick(const Moment& moment, const Publish& publish) {
     }
 }
 
-/// {"online": true, "timestamp": ...} (§6.4.13), or ONLINE and OFFLINE of older hosts. An OFFLINE that is
-/// older than the last ONLINE is of an earlier life.
+/// {"online": true, "timestamp": ...} (§6.4.13), or ONLINE and OFFLINE of older hosts. An OFFLINE older than
+/// the last ONLINE belongs to an earlier session.
 void EdgeNode::take_host_state(std::string_view payload) {
     bool is_online = payload == "ONLINE";
     if (!is_online && payload != "OFFLINE") {

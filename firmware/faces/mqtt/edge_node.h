@@ -18,20 +18,20 @@ namespace nplc::mqtt {
 constexpr std::string_view kRebirth = "Node Control/Rebirth";
 constexpr std::uint64_t kRebirthAlias = 1;
 constexpr std::string_view kCommand = "Command/";
-constexpr std::uint64_t kCommandAlias = 910;  ///< of the first one of a device
+constexpr std::uint64_t kCommandAlias = 910;  ///< of the first command of a device
 
 using deployment::Moment;
 
-/// A message as it came.
+/// A received message.
 struct Incoming {
     std::string_view topic{};
     std::string_view payload{};
     bool is_retained = false;
-    base::Instant arrived{};  ///< not before; what may have waited longer than 1 s starts nothing
+    base::Instant arrived{};  ///< lower limit; a message that may have waited longer than 1 s starts nothing
 };
 
-/// The axes as an edge node of Sparkplug B and its devices (Sparkplug 3.0 §6.4). Knows no socket: messages go
-/// out by `publish`, which says whether the connection took them.
+/// The axes as a Sparkplug B edge node with its devices (Sparkplug 3.0 §6.4). Does no network I/O: messages
+/// are sent by `publish`, which returns whether the connection accepted them.
 class EdgeNode {
   public:
     using Publish = std::function<bool(const std::string& topic, const std::string& payload)>;
@@ -40,25 +40,25 @@ class EdgeNode {
     EdgeNode(const EdgeNode&) = delete;
     EdgeNode& operator=(const EdgeNode&) = delete;
 
-    /// Before each connect: another bdSeq. Then topic and payload of the will.
+    /// To be called before each connect: a new bdSeq. Then read topic and payload of the will.
     void begin_session();
     std::string death_topic() const { return topic("NDEATH"); }
     std::string death_payload(std::uint64_t milliseconds) const;
     std::vector<std::string> subscriptions() const;
 
-    /// The broker has taken the subscriptions.
+    /// The broker has confirmed the subscriptions.
     void connected() { is_connected_ = true; }
     void disconnected();
     void receive(const Incoming& message, const Moment& moment);
-    /// Now and then, connected or not.
+    /// To be called regularly, connected or not.
     void tick(const Moment& moment, const Publish& publish);
-    /// The primary host has gone: this session is to end.
+    /// The primary host is offline: this session must end.
     bool wants_to_leave() const { return wants_to_leave_; }
 
     Store& store() { return store_; }
 
   private:
-    /// When and how a command came.
+    /// Time and origin of a command.
     struct Given {
         const Incoming& message;
         std::uint64_t timestamp;
@@ -68,19 +68,19 @@ class EdgeNode {
         faces::AxisModel* axis = nullptr;
         std::unique_ptr<faces::CommandDesk::Client> client{};
         std::vector<Item> items{};
-        std::size_t points = 0;  ///< items of the model; those of set-points follow
-        std::shared_ptr<const faces::SetPointBook> book{};  ///< that these are of
-        std::uint16_t edition = 0;                          ///< rises with each book
+        std::size_t points = 0;  ///< number of the model's items; set-points follow
+        std::shared_ptr<const faces::SetPointBook> book{};  ///< of the set-point items
+        std::uint16_t edition = 0;                          ///< increases with each book
         bool is_born = false;
-        std::vector<faces::PointValue> last{};  ///< of the items as they were looked at last; empty: never
+        std::vector<faces::PointValue> last{};  ///< last values of the items; empty: none yet
         std::uint64_t last_command = 0;         ///< its timestamp
-        std::uint32_t command_id = 0;           ///< under way
+        std::uint32_t command_id = 0;           ///< in progress
         std::string command{};                  ///< the last one
         bool sets_values = false;               ///< the last one is of set-points
         std::int64_t result = 0;
         std::string result_text{};
         bool result_changed = false;
-        std::string why{};  ///< why nothing moves, in words; empty: not known
+        std::string why{};  ///< causes of a standstill as text; empty: unknown
         bool why_changed = false;
     };
 
@@ -118,10 +118,10 @@ class EdgeNode {
     bool wants_rebirth_ = false;
     bool host_is_online_ = false;
     bool wants_to_leave_ = false;
-    std::uint64_t host_since_ = 0;  ///< timestamp of its last state
+    std::uint64_t host_since_ = 0;  ///< timestamp of the host's last state
     std::uint8_t seq_ = 0;
     std::uint8_t bd_seq_ = 255;
-    std::uint64_t born_at_ = 0;  ///< records from before are historical
+    std::uint64_t born_at_ = 0;  ///< older records are historical
     std::uint64_t told_dropped_ = 0;
     base::Instant next_look_{};
 };

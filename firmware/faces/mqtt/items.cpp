@@ -16,7 +16,7 @@ using faces::Quality;
 
 namespace {
 
-/// They change with every look, and tell a host nothing that timestamps do not.
+/// They change with every image and add nothing to the timestamps.
 constexpr std::string_view kRestless[]{"heartbeat",   "uptime",   "scans",        "scan_time",
                                        "contact_age", "accesses", "user_messages"};
 

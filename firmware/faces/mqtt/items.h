@@ -11,7 +11,7 @@
 
 namespace nplc::mqtt {
 
-/// A value of an axis as a metric.
+/// A value of an axis as a Sparkplug metric.
 struct Item {
     std::string name{};
     std::string unit{};
@@ -20,15 +20,15 @@ struct Item {
     std::function<faces::PointValue(const faces::AxisImage&, base::Instant)> take{};
     std::optional<double> lowest{};  ///< in the unit
     std::optional<double> highest{};
-    std::optional<std::size_t> set_point{};  ///< its place in the book
+    std::optional<std::size_t> set_point{};  ///< its index in the book
 };
 
 constexpr std::string_view kSetPoints = "Set Points/";
 constexpr std::string_view kRecipe = "Set Points/Recipe";
 
-/// The model's points that are told; the same for every axis and book.
+/// The published points of the model; the same for every axis and book.
 std::vector<Item> point_items(const faces::Scaling& scaling);
-/// Those of a table's set-points; none if it has none.
+/// Items of a table's set-points; empty if it has none.
 std::vector<Item> set_point_items(const std::shared_ptr<const faces::SetPointBook>& book);
 
 Value value_of(const Item& item, const faces::PointValue& value);

@@ -9,7 +9,7 @@
 namespace nplc::mqtt {
 namespace {
 
-/// A broker that was not there when pieces were published has them later.
+/// Pieces that were published while the broker was offline may come later.
 constexpr base::Milliseconds kAskAgain{30'000};
 constexpr base::Milliseconds kBetweenReports{500};
 
@@ -74,7 +74,7 @@ void OrderNode::follow_wanted(const deployment::Moment& moment, const Link& link
     asked_ = std::move(wanted);
 }
 
-/// When something has changed, and every so often, so that one sees who is silent.
+/// On changes, and periodically, so that a silent axis is noticed.
 void OrderNode::tell(Part& part, const deployment::Moment& moment, const Link& link) const {
     const base::Microseconds age = moment.now - part.told_at;
     if (part.was_told && age < kBetweenReports) return;

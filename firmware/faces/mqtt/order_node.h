@@ -13,25 +13,26 @@
 
 namespace nplc::mqtt {
 
-/// Orders for the axes, their pieces, and what the axes say of themselves, at topics beside Sparkplug's.
-/// Knows no socket.
+/// Orders for the axes, their pieces, and the axes' reports, on topics besides Sparkplug's. Does no network
+/// I/O.
 class OrderNode {
   public:
-    /// How messages go out; each says whether the connection took it. What is published is retained.
+    /// Functions for sending; each returns whether the connection accepted the message. Published messages
+    /// are retained.
     struct Link {
         std::function<bool(const std::string& topic, const std::string& payload)> publish;
         std::function<bool(const std::string& topic)> subscribe;
         std::function<bool(const std::string& topic)> unsubscribe;
     };
 
-    /// No axis where the options name no keys.
+    /// Handles no axis if the options name no keys.
     OrderNode(const Options& options, const faces::Axes& axes, faces::Bell& bell);
 
     void connected();
     void disconnected() { is_connected_ = false; }
-    /// False: the topic is none of ours.
+    /// False: another topic.
     bool receive(std::string_view topic, std::string_view payload, const deployment::Moment& moment);
-    /// Now and then, connected or not.
+    /// To be called regularly, connected or not.
     void tick(const deployment::Moment& moment, const Link& link);
 
   private:
@@ -48,7 +49,7 @@ class OrderNode {
     std::vector<Part> parts_;
     bool is_connected_ = false;
     bool is_subscribed_ = false;                  ///< to orders
-    std::map<std::string, base::Instant> asked_;  ///< topics of pieces, and when they were subscribed to
+    std::map<std::string, base::Instant> asked_;  ///< topics of pieces with the time of the subscription
 };
 
 }  // namespace nplc::mqtt

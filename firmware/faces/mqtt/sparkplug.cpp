@@ -84,11 +84,11 @@ std::string encode_metric(const Metric& metric) {
 struct Field {
     unsigned number = 0;
     unsigned wire = 0;
-    std::uint64_t value = 0;  ///< but for bytes
+    std::uint64_t value = 0;  ///< except for bytes
     std::string_view bytes{};
 };
 
-/// Field after field; fails for good at what is none.
+/// Reads field by field; fails permanently at an invalid one.
 class Reader {
   public:
     explicit Reader(std::string_view bytes) : left_(bytes) {}

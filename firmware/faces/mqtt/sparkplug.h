@@ -7,7 +7,8 @@
 #include <variant>
 #include <vector>
 
-/// Sparkplug B's payload: the published protobuf schema (sparkplug_b.proto), as far as an edge node needs it.
+/// Sparkplug B's payload: the part of the published protobuf schema (sparkplug_b.proto) that an edge node
+/// needs.
 namespace nplc::mqtt {
 
 /// Sparkplug 3.0 §6.4.16.
@@ -26,13 +27,13 @@ enum class DataType : std::uint32_t {
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct Metric {
-    std::string name{};  ///< empty: it goes by its alias
+    std::string name{};  ///< empty: identified by the alias
     std::optional<std::uint64_t> alias{};
     std::optional<std::uint64_t> timestamp{};  ///< ms since 1970
     DataType type = DataType::int64;
     bool is_historical = false;
     Value value{};
-    std::string description{};              ///< of its metadata
+    std::string description{};              ///< from its metadata
     std::string unit{};                     ///< property engUnit
     std::optional<double> lowest{};         ///< property engLow
     std::optional<double> highest{};        ///< property engHigh
@@ -46,7 +47,7 @@ struct Payload {
 };
 
 std::string encode(const Payload& payload);
-/// Nothing for bytes that are no payload. What the schema has and this has not is passed over.
+/// Empty for invalid bytes. Other fields of the schema are ignored.
 std::optional<Payload> decode(std::string_view bytes);
 
 }  // namespace nplc::mqtt

@@ -8,16 +8,17 @@
 
 namespace nplc::mqtt {
 
-/// A value that changed.
+/// A changed value.
 struct Record {
     std::uint16_t device = 0;
-    std::uint16_t point = 0;         ///< its place among the device's items
+    std::uint16_t point = 0;         ///< its index in the device's items
     std::uint16_t edition = 0;       ///< of the device's items
     std::uint64_t milliseconds = 0;  ///< since 1970
     faces::PointValue value{};
 };
 
-/// What changed and the broker is not known to have, in its order. Full, the oldest is dropped and counted.
+/// Changes that the broker is not known to have received, in order. When full, the oldest is dropped and
+/// counted.
 class Store {
   public:
     explicit Store(std::size_t most) : most_(most) {}
@@ -36,9 +37,9 @@ class Store {
         ++dropped_;
     }
     void note_sent() { ++sent_; }
-    /// The connection did not take the last ones after all.
+    /// The connection did not accept the last ones.
     void take_back(std::size_t count) { sent_ -= count; }
-    /// What has been sent by now is asked about, and later known to have arrived.
+    /// Marks everything sent so far as covered by the pending query; the answer confirms its arrival.
     void ask() {
         asked_ = sent_;
         forgotten_asked_ = forgotten_;
@@ -50,7 +51,7 @@ class Store {
         forgotten_ -= forgotten_asked_;
         asked_ = forgotten_asked_ = 0;
     }
-    /// The connection is lost: what is not known to have arrived is sent again.
+    /// The connection was lost: unconfirmed values are sent again.
     void restart() {
         dropped_ += forgotten_;
         sent_ = asked_ = forgotten_ = forgotten_asked_ = 0;
@@ -59,7 +60,7 @@ class Store {
     std::size_t size() const { return records_.size(); }
 
   private:
-    /// One that was sent is lost only if the connection is.
+    /// A sent value is lost only if the connection is.
     void forget_first() {
         if (sent_ == 0) {
             ++dropped_;
@@ -74,10 +75,10 @@ class Store {
 
     std::size_t most_;
     std::deque<Record> records_;
-    std::size_t sent_ = 0;             ///< of the oldest
-    std::size_t asked_ = 0;            ///< of those
-    std::size_t forgotten_ = 0;        ///< sent, not known to have arrived, and no longer kept
-    std::size_t forgotten_asked_ = 0;  ///< of those, asked about
+    std::size_t sent_ = 0;             ///< number of sent ones, from the oldest
+    std::size_t asked_ = 0;            ///< of those, covered by the query
+    std::size_t forgotten_ = 0;        ///< sent, not confirmed, and no longer stored
+    std::size_t forgotten_asked_ = 0;  ///< of those, covered by the query
     std::uint64_t dropped_ = 0;
 };
 

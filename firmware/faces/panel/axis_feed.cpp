@@ -22,14 +22,14 @@ using faces::AxisImage;
 
 constexpr std::size_t kMostEvents = 200;
 constexpr std::uint8_t kFirstEvent = 16;
-/// What a value of the motor is good for.
+/// Validity of a motor value.
 constexpr base::Milliseconds kMotorLimit{2'000};
 
-/// They change all the time: ten times a second will do.
+/// They change continuously: ten updates a second are enough.
 constexpr std::array kOften{own::UPTIME,     own::SCANS,  own::SCAN_TIME, own::SCAN_WORST, own::TIMER,
                             own::FORCE_LEFT, own::ORDERS, own::ACCESSES,  own::MESSAGES};
 
-/// Single registers that are shown; FIRED_* are those of the image's own scan, RESULT is another port's.
+/// Single registers to show; FIRED_* are those of the image's own scan, RESULT belongs to another port.
 bool is_shown(const own::Row& row) {
     return row.count == 1 && row.number != own::TABLE_DATA && row.number != own::TABLE_POINTER &&
            row.number != own::RESULT && row.number != own::FIRED_SCAN && row.number != own::FIRED_STEP &&
@@ -84,7 +84,7 @@ Json register_info(const registers::Register& reg, registers::Model model) {
     return info;
 }
 
-/// The registers that the table writes, and those that its commands name.
+/// The registers that the table writes, and those that its commands use.
 Json registers_of(const faces::AxisTable& table, registers::Model model) {
     Json list = Json::object();
     for (std::size_t at = 0; at + sequencer::kTermBytes <= table.bytes.size(); at += sequencer::kTermBytes) {
@@ -98,7 +98,7 @@ Json registers_of(const faces::AxisTable& table, registers::Model model) {
     return list;
 }
 
-/// What ERR_STAT's bits mean, and the modes of MODE_REG.
+/// Meanings of ERR_STAT's bits, and the modes of MODE_REG.
 Json error_bits(registers::Model model) {
     Json list = Json::array();
     for (const registers::Field& field : registers::fields_of(model, registers::ERR_STAT)) {
@@ -221,7 +221,7 @@ void AxisFeed::take_events() {
     }
 }
 
-/// What was changed stands beside the log.
+/// Adds the changed values to the log's text.
 std::string AxisFeed::event_text(const LoggedEvent& event) const {
     std::string text = event_in_words(event.code, event.detail);
     const auto is = [&](own::Event what) { return event.code == static_cast<std::uint8_t>(what); };

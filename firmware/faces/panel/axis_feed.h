@@ -10,7 +10,7 @@
 
 namespace nplc::panel {
 
-/// One line of an axis's event log, as the panel keeps it.
+/// An entry of an axis's event log, as stored by the panel.
 struct LoggedEvent {
     std::uint64_t number = 0;  ///< from 1 on, of this process
     std::uint32_t milliseconds = 0;
@@ -20,37 +20,37 @@ struct LoggedEvent {
     std::string text{};
 };
 
-/// What the panel shows of one axis: its last image, its events, its table with names, each as text of the
-/// wire.
+/// The panel's data of one axis: its last image, its events, its table with names, each in the text form of
+/// the protocol.
 class AxisFeed {
   public:
     AxisFeed(const PanelAxis& axis, std::size_t index, SymbolShelf* symbols)
         : model_(*axis.model), motor_(axis.motor), index_(index), symbols_(symbols) {}
 
-    /// Looks for what is new.
+    /// Checks for changes.
     void look(base::Instant now);
 
     faces::AxisModel& model() { return model_; }
     const std::string& name() const { return model_.name(); }
     const faces::AxisImage& image() const { return image_; }
     std::uint32_t age(base::Instant now) const;  ///< of the image, ms
-    /// Rises with each new table, or new names.
+    /// Increases with each new table, or new names.
     std::uint32_t program_number() const { return program_number_; }
     const std::string& program_text() const { return program_text_; }
-    /// Rises with each change of values or recipes.
+    /// Increases with each change of values or recipes.
     std::uint32_t set_points_number() const { return set_points_number_; }
     const SetPointFeed& set_points() const { return set_points_; }
-    /// Rises with each change of what keeps the motor from moving.
+    /// Increases with each change of the causes of a standstill.
     std::uint32_t why_number() const { return why_number_; }
     const std::string& why_text() const { return why_text_; }
-    /// Other names may be on the shelf.
+    /// The names on the shelf may have changed.
     void read_names_anew() { has_program_ = false; }
 
-    /// All registers, or what differs from `before`. Empty: nothing differs that is worth a message now.
+    /// All registers, or the differences to `before`. Empty: nothing to send now.
     std::string image_text(const faces::AxisImage* before, bool slow_too, base::Instant now) const;
     std::uint64_t last_event() const { return last_event_; }
     std::string events_text(std::uint64_t after) const;
-    /// What a client must know of the axis to read its values: a member of `hello`.
+    /// The axis's metadata for a client: a member of `hello`.
     std::string info_text() const;
 
   private:
@@ -79,7 +79,7 @@ class AxisFeed {
     std::string program_text_;
 };
 
-/// `table activated`, with what the detail says.
+/// `table activated`, with the meaning of the detail.
 std::string event_in_words(std::uint8_t code, std::uint16_t detail);
 
 }  // namespace nplc::panel

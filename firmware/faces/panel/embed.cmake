@@ -1,6 +1,6 @@
 # cmake -DOUT=F.cpp -DFOLDER=DIR -DFILES=a;b -P embed.cmake
 #
-# Writes the files as arrays of bytes, with the functions that answer them.
+# Writes the files as byte arrays, with the functions that return them.
 set(text "#include \"files.h\"\n\nnamespace nplc::panel {\nnamespace {\n\n")
 set(rows "")
 set(types "")

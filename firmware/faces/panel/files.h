@@ -6,7 +6,7 @@
 
 namespace nplc::panel {
 
-/// The page, as it is built into the program.
+/// The page, embedded in the program.
 std::span<const WebFile> page_files();
 
 }  // namespace nplc::panel

@@ -10,7 +10,7 @@ namespace {
 constexpr int kProtocol = 1;
 constexpr base::Milliseconds kBetweenSlow{100};
 constexpr base::Milliseconds kBeat{400};
-/// An axis whose loop hangs at the start must not hide the others.
+/// An axis whose loop hangs at the start must not block the others.
 constexpr base::Milliseconds kLongestGreeting{1'000};
 
 }  // namespace
@@ -49,7 +49,7 @@ void Hub::opened(ClientId client, const std::string& peer) {
     tick();
 }
 
-/// Who holds a seat keeps its place.
+/// The holder of a seat keeps its connection.
 bool Hub::may_go(ClientId client) {
     const auto found = sessions_.find(client);
     if (found == sessions_.end()) return true;
@@ -65,7 +65,7 @@ void Hub::tick() {
     bell_.arm();
     const base::Instant now = clock_.now();
     for (AxisFeed& feed : feeds_) feed.look(now);
-    // What is sent may end a session.
+    // Sending may end a session.
     std::vector<ClientId> clients;
     for (const auto& [client, session] : sessions_) clients.push_back(client);
     for (const ClientId client : clients) {
@@ -88,7 +88,7 @@ std::string Hub::hello(ClientId client, const Session& session) const {
     if (session.rights.read) {
         for (const AxisFeed& feed : feeds_) axes.push_back(Json::parse(feed.info_text()));
     }
-    Json stops = Json::array();  // a stop names its axis, and needs no login
+    Json stops = Json::array();  // a stop names its axis and needs no login
     for (const AxisFeed& feed : feeds_) stops.push_back(feed.name());
     return Json{
         {"t", "hello"},
@@ -109,7 +109,7 @@ void Hub::greet(ClientId client, Session& session) {
     send(client, session, hello(client, session));
 }
 
-/// A client that has not taken what it was sent is told later, and then only how things stand by then.
+/// A client that has not read its data gets the next update later, with the state at that time.
 void Hub::tell(ClientId client, Session& session, base::Instant now) {
     if (!session.rights.read || server_->waiting(client) != 0) return;
     if (!session.is_greeted) {

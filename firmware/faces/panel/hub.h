@@ -13,14 +13,13 @@
 
 namespace nplc::panel {
 
-/// Between the clients and the axes: greets, tells what has changed, takes what is asked. On the server's
-/// thread.
+/// Connects clients and axes: greets, sends updates, handles requests. On the server's thread.
 class Hub final : public WebHandler {
   public:
     Hub(const PanelOptions& options, const std::vector<PanelAxis>& axes, SymbolShelf* symbols,
         Simulation* simulation, ports::Clock& clock);
 
-    /// Before anything else.
+    /// To be called first.
     void serve(WebServer& server);
 
     void opened(ClientId client, const std::string& peer) override;

@@ -27,7 +27,7 @@ bool is_one_of(std::string_view word, auto& words) {
     return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// Of the table alone: what follows its end term is its certificate.
+/// Of the table only: after its end term is its certificate.
 std::uint32_t crc_of_table(std::span<const std::uint8_t> bytes) {
     for (std::size_t at = 0; at + sequencer::kTermBytes <= bytes.size(); at += sequencer::kTermBytes) {
         if (sequencer::is_end(sequencer::TermView(&bytes[at], sequencer::kTermBytes)))
@@ -47,7 +47,7 @@ void Hub::received(ClientId client, std::string_view text) {
     if (found == sessions_.end()) return;
     Session& session = found->second;
     const Request request = Request::read(text);
-    // Who sends too much is still heard when it asks for a stop.
+    // A stop is accepted even from a client that sends too much.
     const bool is_stop = request.what == "command" && is_one_of(request.text("name"), kStops);
     if (!session.may_send(clock_.now()) && !is_stop) {
         answer(client, request, "too_many", "too many messages; this one was not carried out");

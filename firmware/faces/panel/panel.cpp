@@ -30,7 +30,8 @@ std::string refusal(const PanelOptions& options) {
 }  // namespace
 
 std::string make_token() {
-    constexpr std::string_view kCharacters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32 that are not mistaken
+    constexpr std::string_view kCharacters =
+        "abcdefghijkmnpqrstuvwxyz23456789";  // 32 characters that are not confused
     std::array<unsigned char, 24> chance{};
     if (::getrandom(chance.data(), chance.size(), 0) != static_cast<ssize_t>(chance.size())) return {};
     std::string token;
@@ -78,7 +79,7 @@ Panel::Opened Panel::open(const PanelOptions& options, const std::vector<PanelAx
     return {std::unique_ptr<Panel>(new Panel(std::move(parts))), {}};
 }
 
-/// An ordinary thread, whatever priority the loop has: a browser can wait. Signals are the main thread's.
+/// An ordinary thread, whatever priority the loop has. Signals are handled by the main thread.
 void Panel::start() {
     pthread_attr_t attributes;
     ::pthread_attr_init(&attributes);

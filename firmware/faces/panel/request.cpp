@@ -18,7 +18,7 @@ constexpr std::array kCommands{
     own::Command::step,      own::Command::hold,         own::Command::reset,   own::Command::keep_settings,
     own::Command::clear_log, own::Command::upload_abort, own::Command::activate};
 
-/// A text of a client in a message for people.
+/// Makes a client's text safe for a message.
 std::string shown(std::string_view text) {
     std::string result;
     for (const char c : text.substr(0, 40)) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
@@ -50,7 +50,7 @@ Asked own_write(const Request& request, base::Instant now) {
     const own::Row* row = own_register(request);
     if (row == nullptr)
         return {{}, "\"register\" must be the name or number of one of the gateway's registers"};
-    // COMMAND has a request of its own, an upload too: neither is done by the way.
+    // COMMAND and uploads have requests of their own: not accepted as plain writes.
     if (row->number == own::COMMAND || row->number == own::TABLE_DATA)
         return {{}, fmt::format("{} is not written like this; use \"command\" or \"upload\"", row->name)};
     const auto value = value_of(request);

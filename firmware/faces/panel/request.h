@@ -11,22 +11,22 @@
 
 namespace nplc::panel {
 
-/// A message of a client, as far as it can be read without knowing the machine.
+/// A client's message, parsed without knowledge of the machine.
 struct Request {
-    std::optional<std::uint64_t> id{};  ///< nothing: it cannot even be answered by number
+    std::optional<std::uint64_t> id{};  ///< empty: it cannot be answered by number
     std::string what{};                 ///< member "do"
     nlohmann::json body{};
-    std::string error{};  ///< one line if it is no request
+    std::string error{};  ///< one line if it is invalid
 
     static Request read(std::string_view text);
 
-    std::string text(const char* name) const;  ///< empty if it is not there or no text
+    std::string text(const char* name) const;  ///< empty if missing or not a text
     std::optional<std::int64_t> whole(const char* name) const;
     std::optional<double> number(const char* name) const;
     bool flag(const char* name) const;
 };
 
-/// What a request asks of an axis, or why it is none.
+/// The command of a request, or an error.
 struct Asked {
     std::optional<faces::Command> command{};
     std::string error{};

@@ -14,22 +14,22 @@
 
 namespace nplc::panel {
 
-/// What a client may do: PROTOCOL.md, Rights.
+/// Rights of a client: PROTOCOL.md, Rights.
 struct Rights {
     bool read = false;
     bool operate = false;
 };
 
-/// A client's part in one axis: what it has been told, and what it has asked.
+/// A client's state for one axis: what was sent to it, and its requests.
 struct AxisPart {
     std::unique_ptr<faces::CommandDesk::Client> desk{};  ///< from its first command on
     std::map<std::uint32_t, std::uint64_t> asked{};      ///< requests by the desk's ids
     std::optional<faces::Upload> upload{};
-    std::uint32_t upload_id = 0;  ///< of its command that is under way
+    std::uint32_t upload_id = 0;  ///< of its command in progress
     std::size_t told_bytes = 0;
     std::optional<SetPointWork> set_points{};
 
-    std::unique_ptr<faces::AxisImage> image{};  ///< as it was told
+    std::unique_ptr<faces::AxisImage> image{};  ///< as last sent
     base::Instant told_slow{};
     std::uint32_t program = 0;
     std::uint32_t set_points_told = 0;
@@ -40,9 +40,9 @@ struct AxisPart {
 
 /// A client.
 struct Session {
-    /// So many messages a second, and as many at once.
+    /// Messages per second, and burst size.
     static constexpr unsigned kMessages = 100;
-    /// Then it is sent away.
+    /// Then it is disconnected.
     static constexpr unsigned kMostFaults = 50;
 
     explicit Session(std::string peer_name, std::size_t axes) : peer(std::move(peer_name)), parts(axes) {}
@@ -57,8 +57,8 @@ struct Session {
     base::Instant last_told{};
     unsigned faults = 0;
     unsigned wrong_secrets = 0;
-    std::string simulation{};   ///< as it was told
-    base::Instant told_time{};  ///< when it was
+    std::string simulation{};   ///< as last sent
+    base::Instant told_time{};  ///< time of that
     std::vector<AxisPart> parts;
 
   private:

@@ -17,7 +17,7 @@ namespace own = registers::gateway;
 constexpr std::size_t kInForce = 1;
 constexpr std::size_t kWanted = kInForce + own::kSetPoints;
 
-/// With no more digits than people need.
+/// Rounded to a readable number of digits.
 double number_of(const SetPoint& point, std::int32_t value) {
     return std::strtod(set_points::text_of(point, value).c_str(), nullptr);
 }
@@ -34,7 +34,7 @@ Json values_of(const set_points::Recipe& recipe, const set_points::Record& recor
 }  // namespace
 
 bool SetPointFeed::look(const faces::AxisImage& image, std::shared_ptr<const faces::SetPointBook> book) {
-    if (!book->is_of(image)) return false;  // a table is being exchanged: the next image is for it
+    if (!book->is_of(image)) return false;  // a table is being replaced: the next image will fit
     auto now = shown_;
     now[0] = image[own::SET_POINT_STATE];
     for (std::size_t i = 0; i < own::kSetPoints; ++i) {

@@ -10,21 +10,21 @@
 
 namespace nplc::panel {
 
-/// The set-points of an axis as clients are told of them.
+/// The set-points of an axis in the form sent to clients.
 class SetPointFeed {
   public:
-    /// True if something differs from before.
+    /// True if something has changed.
     bool look(const faces::AxisImage& image, std::shared_ptr<const faces::SetPointBook> book);
-    /// As text of the wire (PROTOCOL.md, set_points).
+    /// In the text form of the protocol (PROTOCOL.md, set_points).
     std::string text(const std::string& axis) const;
 
     const faces::SetPointBook& book() const { return *book_; }
     const set_points::Record& record() const { return book_->record; }
-    /// How many recipes can be kept.
+    /// Maximum number of recipes.
     std::size_t room() const { return room_; }
-    /// "Length 80 mm to 100 mm, Pieces 3 to 5" of the changes of this uptime; empty if they are not known.
+    /// "Length 80 mm to 100 mm, Pieces 3 to 5": the changes at this uptime; empty if unknown.
     std::string changes_at(std::uint32_t milliseconds) const;
-    /// Of what the event log calls by its number.
+    /// Name of a recipe that the event log identifies by number.
     std::string recipe_name(unsigned number) const;
 
   private:

@@ -32,7 +32,7 @@ std::string names_of(const set_points::Record& record) {
     return names;
 }
 
-/// Text with or without its unit, or a number in the set-point's own.
+/// Text with or without a unit, or a number in the set-point's unit.
 std::string text_of(const nlohmann::json& value) {
     if (value.is_string()) return value.get<std::string>();
     return value.is_number() ? value.dump() : std::string();
@@ -48,7 +48,7 @@ std::string action_of(const set_points::Record& record, const std::vector<NewVal
     return text;
 }
 
-/// Of a recipe: all that loading it sets.
+/// All values that loading the recipe sets.
 std::vector<NewValue> all_values(const Recipe& recipe, const set_points::Record& record) {
     std::vector<NewValue> all;
     for (std::size_t i = 0; i < record.values.size(); ++i) all.push_back({i, record.values[i].initial});
@@ -122,7 +122,7 @@ SetPointsRead SetPointWork::one_recipe(const Request& request, const SetPointFee
     return {std::move(work), true, {}};
 }
 
-/// All of the file is looked at before the first is stored.
+/// The whole file is checked before the first recipe is stored.
 SetPointsRead SetPointWork::import_from(const Request& request, const SetPointFeed& feed) {
     const auto format = format_of(request);
     if (!format) return no_message(R"("format" must be csv or toml)");

@@ -13,18 +13,18 @@ namespace nplc::panel {
 
 struct SetPointsRead;
 
-/// What a client asks of set-points and recipes, as writes to SET_POINT_WRITE one after the other; range and
-/// unit are the gateway's to check, in words they come with the value's name and limits.
+/// A client's request about set-points and recipes, as a sequence of writes to SET_POINT_WRITE; the gateway
+/// checks range and unit, and its refusals are reported with the value's name and limits.
 class SetPointWork {
   public:
-    /// `do`: set_points, and recipe but for its export.
+    /// `do`: set_points, and recipe except for its export.
     static SetPointsRead read(const Request& request, const SetPointFeed& feed);
-    /// The recipes as a file, or why there is none.
+    /// The recipes as a file, or an error.
     static SetPointsRead export_to(const Request& request, const SetPointFeed& feed, std::string& file);
 
-    /// The next command, if none is under way.
+    /// The next command, if none is in progress.
     std::optional<faces::Command> next(base::Instant now);
-    /// Of next(): where it is waited for.
+    /// The desk's id of the command from next().
     void submitted(std::uint32_t command) { command_ = command; }
     bool is_of(std::uint32_t command) const { return is_waiting_ && command_ == command; }
     void ended(const faces::Completion& completion);
@@ -33,9 +33,9 @@ class SetPointWork {
     std::uint64_t request() const { return request_; }
     faces::Result result() const { return result_; }
     std::uint16_t detail() const { return detail_; }
-    /// Why it was refused, or what was done.
+    /// Reason of a refusal, or what was done.
     std::string text() const;
-    /// What was set, as a scenario has it: `set Length := 25 mm and Pieces := 5`; empty if no value was.
+    /// The change as a scenario action: `set Length := 25 mm and Pieces := 5`; empty if no value was set.
     const std::string& action() const { return action_; }
 
   private:
@@ -48,7 +48,7 @@ class SetPointWork {
     std::uint64_t request_;
     faces::SetPointBook book_;
     std::vector<std::vector<std::uint8_t>> requests_;
-    std::vector<std::string> names_;  ///< of recipes that are imported, one for each request
+    std::vector<std::string> names_;  ///< of imported recipes, one per request
     std::string action_;
     std::size_t done_ = 0;
     std::uint32_t command_ = 0;
@@ -59,7 +59,7 @@ class SetPointWork {
 
 struct SetPointsRead {
     std::optional<SetPointWork> work{};
-    bool is_message = true;  ///< false: the message itself is wrong
+    bool is_message = true;  ///< false: the message itself is invalid
     std::string error{};     ///< one line; empty if there is none
 };
 

@@ -39,7 +39,7 @@ using Response = http::response<http::string_body>;
 
 class Server;
 
-/// One WebSocket. It lives as long as an operation of its own is under way.
+/// One WebSocket. It lives as long as one of its operations is in progress.
 class Socket : public std::enable_shared_from_this<Socket> {
   public:
     Socket(Server& server, ClientId id, beast::tcp_stream stream, std::string peer)
@@ -64,14 +64,14 @@ class Socket : public std::enable_shared_from_this<Socket> {
     beast::flat_buffer in_;
     std::deque<std::string> out_;
     std::size_t waiting_ = 0;
-    std::uint64_t heard_ = 0;  ///< in the order of all clients' messages
+    std::uint64_t heard_ = 0;  ///< sequence number of its last message over all clients
     std::optional<websocket::close_reason> closing_;
     bool is_open_ = false;
     bool has_ended_ = false;
     bool close_sent_ = false;
 };
 
-/// A connection until it is known what it wants.
+/// A connection before its purpose is known.
 class Connection : public std::enable_shared_from_this<Connection> {
   public:
     Connection(Server& server, tcp::socket socket);
@@ -216,7 +216,7 @@ void Socket::close(std::uint16_t code, std::string_view reason) {
         websocket::close_reason(static_cast<websocket::close_code>(code), {reason.data(), reason.size()});
     server_.forget(id_);
     if (out_.empty()) return send_close();
-    // What is being written is let out first; a client that does not read loses its connection at once.
+    // A write in progress is completed first; a client that does not read is closed at once.
     if (code == kTooSlow) beast::get_lowest_layer(stream_).close();
 }
 
@@ -314,7 +314,7 @@ std::string Server::listen() {
 void Server::accept() {
     acceptor_.async_accept([this](Error error, tcp::socket socket) {
         if (error) {
-            // Out of descriptors, for example: tried again a little later.
+            // Out of descriptors, for example: retried a little later.
             retry_.expires_after(std::chrono::milliseconds{100});
             retry_.async_wait([this](Error) { accept(); });
             return;

@@ -4,7 +4,7 @@
 
 namespace nplc::registers {
 
-/// a * b / c to the nearest, halves away from zero, without losing a bit on the way.
+/// a * b / c to the nearest, halves away from zero, without intermediate overflow.
 struct Quotient {
     bool fits = false;           ///< the quotient has at most 62 bits
     std::int64_t value = 0;      ///< rounded

@@ -1,5 +1,4 @@
-// Bits, modes and pointers of the MAC800 (004). Where 004 only lists a register, 001 says what its values
-// mean.
+// Bits, modes and pointers of the MAC800 (004). If 004 only lists a register, the meanings are from 001.
 #include "text_tables.h"
 #include "values.h"
 

@@ -10,7 +10,7 @@ namespace {
 
 using std::string_view;
 
-/// Digits that 60 bits hold.
+/// Maximum number of digits that fit in 60 bits.
 constexpr int most_digits(int base) {
     return base == 2 ? 60 : base == 16 ? 15 : 18;
 }
@@ -39,7 +39,7 @@ struct Digits {
     int significant = 0;
 };
 
-/// Takes digits, and single `_` between them, off the front of `text`.
+/// Takes digits, with single `_` between them, off the front of `text`.
 Digits take_digits(string_view& text, int base, Digits digits = {}) {
     for (bool after_digit = false; !text.empty(); text.remove_prefix(1)) {
         if (text.front() == '_' && after_digit && text.size() > 1 && digit_of(text[1]) < base) {

@@ -1,5 +1,5 @@
-// Titles and doubts for the MAC800. 004 lists many registers by name alone: where 001 has one of that name,
-// the title is of that one.
+// Titles and open questions for the MAC800. 004 lists many registers by name only: if 001 has one with that
+// name, its title is used.
 #include "text_tables.h"
 
 namespace nplc::registers {

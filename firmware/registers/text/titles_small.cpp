@@ -1,4 +1,4 @@
-// Titles, recommendations and doubts for MAC50, MAC95, MAC140 and MAC141 (001 §3.2).
+// Titles, recommendations and open questions for MAC50, MAC95, MAC140 and MAC141 (001 §3.2).
 #include "text_tables.h"
 
 namespace nplc::registers {

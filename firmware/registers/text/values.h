@@ -4,7 +4,7 @@
 
 namespace nplc::registers {
 
-// What the values of modes and pointers stand for. `Small`: MAC50, 95, 140 and 141.
+// Meanings of the values of modes and pointers. `Small`: MAC50, 95, 140 and 141.
 // clang-format off
 /// 001 §3.2.2, §4.4
 inline constexpr NamedValue kSmallModes[] = {

@@ -12,14 +12,14 @@ void add_hex(Text& text, std::uint32_t bits, int digits) {
         text.add("0123456789ABCDEF"[(bits >> shift) & 0xF]);
 }
 
-/// `scaled` is the number times 10 to the power of `decimals`. Zeros at the end are left out.
+/// `scaled` is the number times 10 to the power of `decimals`. Trailing zeros are omitted.
 void add_decimal(Text& text, std::int64_t scaled, int decimals) {
     if (scaled < 0) text.add('-');
     while (decimals > 0 && scaled % 10 == 0) {
         scaled /= 10;
         --decimals;
     }
-    std::array<char, 20> digits{};  // backwards
+    std::array<char, 20> digits{};  // in reverse order
     std::size_t count = 0;
     auto rest = static_cast<std::uint64_t>(scaled < 0 ? -scaled : scaled);
     for (; rest != 0 || count <= static_cast<std::size_t>(decimals); rest /= 10) {

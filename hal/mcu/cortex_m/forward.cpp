@@ -8,7 +8,7 @@ void forward_to(std::uint32_t vectors) {
     link_forward = vectors;
 }
 
-/// The registers that it uses are on the stack already.
+/// The registers it uses are already on the stack.
 extern "C" [[gnu::naked]] void nplc_forward() {
     asm volatile(
         ".syntax unified\n\t"

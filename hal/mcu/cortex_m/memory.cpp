@@ -1,4 +1,4 @@
-// What the compiler calls to copy, fill and compare memory, byte by byte: a sixth of the C library's size.
+// The compiler's functions to copy, fill and compare memory, byte by byte: a sixth of the C library's size.
 
 #include <cstddef>
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// What every Cortex-M has, as Arm's architecture names it; only what is used.
+/// Registers of every Cortex-M, named as in Arm's architecture; only those in use.
 namespace nplc::hal_mcu::cortex_m {
 
 using Register = volatile std::uint32_t;

@@ -2,7 +2,7 @@
 
 #include "hal_mcu/cortex_m/core.h"
 
-// Named in a board's linker script; only their addresses mean anything.
+// Defined in a board's linker script; only their addresses are used.
 extern "C" {
 extern std::uint32_t link_stack_begin;
 extern std::uint32_t link_stack_top;
@@ -18,11 +18,12 @@ extern void (*link_init_end)();
 namespace nplc::hal_mcu::cortex_m {
 namespace {
 
-/// Of SVCall, which nobody uses: stands for a call of a pure virtual function and for run_firmware's return.
+/// SVCall's number, which is otherwise unused: marks a call of a pure virtual function and a return of
+/// run_firmware.
 constexpr std::uint32_t kPureCall = 11;
-constexpr std::uint32_t kPaintedBelow = 64;  ///< bytes under the top that reset itself uses
+constexpr std::uint32_t kPaintedBelow = 64;  ///< bytes below the top that reset itself uses
 
-/// Volatile: no memset, which would have its own frame in what is painted.
+/// Volatile: excludes memset, whose own frame would be in the painted area.
 void paint_stack() {
     const auto top = reinterpret_cast<std::uint32_t>(&link_stack_top) - kPaintedBelow;
     for (volatile std::uint32_t* word = &link_stack_begin; reinterpret_cast<std::uint32_t>(word) < top;
@@ -60,7 +61,7 @@ void nplc_reset() {
     end_firmware(exception, pc);
 }
 
-/// The old stack may be what the fault is about, and its contents are not needed any more.
+/// The old stack may be the cause of the fault, and its contents are no longer needed.
 [[gnu::naked]] void nplc_fault() {
     asm volatile(
         "cpsid i\n\t"
@@ -75,7 +76,7 @@ void nplc_reset() {
         ".ltorg");
 }
 
-// The C++ library's own versions drag in the heap. Firmware never ends, so no destructor is kept.
+// The C++ library's versions need the heap. The firmware never ends, so no destructor is registered.
 [[noreturn]] void __cxa_pure_virtual() {
     end_firmware(kPureCall, reinterpret_cast<std::uint32_t>(__builtin_return_address(0)));
 }

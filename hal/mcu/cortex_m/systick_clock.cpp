@@ -12,7 +12,7 @@ void SysTickClock::begin(std::uint32_t hertz) {
     systick().CSR = kCsrEnable | kCsrInterrupt | kCsrOfCore;
 }
 
-/// Read again when the interrupt came in between.
+/// Reads again if the interrupt came in between.
 base::Instant SysTickClock::now() {
     std::uint32_t milliseconds = 0;
     std::uint32_t left = 0;

@@ -45,7 +45,7 @@ base::Status Flash::erase(std::uint32_t address) {
     return {};
 }
 
-/// Some words at a time: a millisecond at the most.
+/// Programs some words per call: a millisecond at the most.
 StorageState Flash::state() {
     constexpr int kAtOnce = 16;
     for (int i = 0; i < kAtOnce && !to_program_.empty() && is_ready(); ++i) {

@@ -14,7 +14,7 @@ std::uint32_t spread(std::uint32_t levels, std::span<const std::uint8_t> numbers
     return pins;
 }
 
-/// The pull needs its time to charge the line: some microseconds, at 16 MHz.
+/// Waits until the pull-up has charged the line: some microseconds, at 16 MHz.
 void let_settle() {
     for (int turn = 0; turn < 200; ++turn) asm volatile("nop");
 }
@@ -43,7 +43,7 @@ void OutputPins::begin(std::uint8_t levels) {
     for (const std::uint8_t pin : numbers_) gpio().PIN_CNF[pin] = kPinOutput;
 }
 
-/// In one store, as nothing else writes OUT while the firmware runs.
+/// A single store; no other code writes OUT while the firmware runs.
 void OutputPins::write(std::uint8_t levels) {
     gpio().OUT = (gpio().OUT & ~spread(0xF, numbers_)) | spread(levels, numbers_);
 }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// Registers of Nordic's nRF51 series as its reference manual names them; only what is used.
+/// Registers of Nordic's nRF51 series, named as in its reference manual; only those in use.
 namespace nplc::hal_mcu::nrf51 {
 
 using Register = volatile std::uint32_t;
@@ -110,7 +110,7 @@ struct WatchdogRegisters {
     Register reserved_510[60];
     Register RR[8];  // 600h
 };
-inline constexpr std::uint32_t kWatchdogRunsInSleep = 1U << 0;  // and stands while a debugger halts the core
+inline constexpr std::uint32_t kWatchdogRunsInSleep = 1U << 0;  // and stops while a debugger halts the core
 inline constexpr std::uint32_t kWatchdogReload = 0x6E52'4635U;
 inline constexpr std::uint32_t kWatchdogHertz = 32'768;
 

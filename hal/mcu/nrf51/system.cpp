@@ -14,7 +14,7 @@ bool was_reset_from_outside() {
     return causes == 0 || (causes & kResetByPin) != 0;
 }
 
-/// Its bits stay until they are written.
+/// The bits are kept until they are written.
 bool take_watchdog_reset() {
     const bool was_watchdog = (power_clock().RESETREAS & kResetByWatchdog) != 0;
     power_clock().RESETREAS = 0xFFFF'FFFFU;

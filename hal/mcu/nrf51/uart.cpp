@@ -6,7 +6,7 @@
 namespace nplc::hal_mcu::nrf51 {
 namespace {
 
-/// The rate is to 16 MHz as the register is to 2^32, in steps of 1000h.
+/// Register / 2^32 = baud / 16 MHz, in steps of 1000h.
 constexpr std::uint32_t divider_of(std::uint32_t baud) {
     constexpr std::uint32_t kClock = 15'625;                      // 16 MHz, in units of 1024 Hz
     const std::uint32_t units = ((baud << 11) / kClock + 1) / 2;  // of 2^12
@@ -18,7 +18,7 @@ static_assert(divider_of(921'600) == 0x0EBE'E000);
 
 }  // namespace
 
-/// The idle line is high also before the UART has the pin.
+/// The line must be high before the UART controls the pin.
 void Uart::begin(const Pins& pins, std::uint32_t baud) {
     uart().ENABLE = 0;
     gpio().OUTSET = 1U << pins.transmit;
@@ -38,7 +38,7 @@ void Uart::begin(const Pins& pins, std::uint32_t baud) {
     cortex_m::enable_interrupt(kInterrupt);
 }
 
-/// The chip does not say which character was bad: those that wait are, or else the next place is.
+/// The chip does not report which character was bad: the buffered ones are marked, or else the next position.
 void Uart::on_interrupt() {
     bool bad = false;
     if (uart().EVENTS_ERROR != 0) {
@@ -49,7 +49,7 @@ void Uart::on_interrupt() {
         if ((errors & kUartOverrun) != 0 || uart().EVENTS_RXDRDY == 0) note_overrun();
     }
     while (uart().EVENTS_RXDRDY != 0) {
-        uart().EVENTS_RXDRDY = 0;  // before the character is taken, which brings the next
+        uart().EVENTS_RXDRDY = 0;  // before the character is read, which brings the next
         take_received(static_cast<std::uint8_t>(uart().RXD), bad);
     }
     if (uart().EVENTS_TXDRDY == 0) return;
@@ -57,7 +57,7 @@ void Uart::on_interrupt() {
     send_next();
 }
 
-/// Only for the loop, which must not send between the interrupt's looking and sending.
+/// For the loop only; excludes the interrupt while it checks and sends.
 void Uart::wake_transmitter() {
     uart().INTENCLR = kUartSent;
     if (!sending_) send_next();

@@ -5,7 +5,7 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// A watchdog that runs since before this reset has the same settings and takes no others.
+/// A watchdog that was already running before this reset has the same settings and accepts no others.
 void Watchdog::begin(base::Milliseconds time) {
     set_time(time);
     cortex_m::enable_interrupt(kInterrupt);

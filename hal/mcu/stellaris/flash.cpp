@@ -8,7 +8,7 @@ using ports::StorageState;
 
 namespace {
 
-// Of the controller.
+// Register offsets of the flash controller.
 constexpr std::uint32_t kFma = 0x000;
 constexpr std::uint32_t kFmd = 0x004;
 constexpr std::uint32_t kFmc = 0x008;
@@ -50,7 +50,7 @@ base::Status Flash::erase(std::uint32_t address) {
     return {};
 }
 
-/// Some words at a time: a millisecond at the most.
+/// Programs some words per call: a millisecond at the most.
 StorageState Flash::state() {
     constexpr int kAtOnce = 16;
     for (int i = 0; i < kAtOnce; ++i) {
@@ -76,7 +76,7 @@ bool Flash::works() {
     return (chip_.get(kFmc) & (kWrite | kErase)) != 0;
 }
 
-/// By itself: in its place a test on the emulated board, which has no controller, stands in for that.
+/// Not inlined: a test on the emulated board, which has no flash controller, replaces this function.
 [[gnu::noinline]] void Flash::order(std::uint32_t address, std::uint32_t data, std::uint32_t command) {
     chip_.set(kFma, address);
     chip_.set(kFmd, data);

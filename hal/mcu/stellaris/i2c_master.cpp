@@ -21,8 +21,7 @@ void half_bit() {
     for (unsigned turn = 0; turn < kHertz / 1'000'000 * 2; ++turn) asm volatile("nop");
 }
 
-/// A reset in the middle of a read leaves the memory holding the data line until it is clocked to its byte's
-/// end.
+/// After a reset during a read the memory holds the data line until it is clocked to the end of its byte.
 void free_bus() {
     auto& gpio = block<GpioRegisters>(kPortB);
     gpio.AFSEL = gpio.AFSEL & ~(kClockPin | kDataPin);

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// Registers of the Stellaris LM3S6965 as its data sheet names them; only what is used.
+/// Registers of the Stellaris LM3S6965, named as in its data sheet; only those in use.
 namespace nplc::hal_mcu::stellaris {
 
 using Register = volatile std::uint32_t;

@@ -32,7 +32,7 @@ void Uart::begin(std::uint32_t baud) {
     uart.ICR = 0x7FF;
     uart.IM = kImReceive | kImReceiveTimeout | kImOverrun;
     uart.CTL = kCtlEnable;
-    // A buffer that holds something already might never interrupt.
+    // A buffer that already has characters might never interrupt.
     while ((uart.FR & kFrReceiverEmpty) == 0) static_cast<void>(uart.DR);
     cortex_m::enable_interrupt(place_.interrupt);
 }
@@ -52,7 +52,7 @@ void Uart::on_interrupt() {
     if (!has_to_send()) uart.IM = uart.IM & ~kImTransmit;
 }
 
-/// The interrupt comes when the chip's buffer runs low; it must have been filled for that.
+/// The interrupt comes when the chip's buffer runs low, so it must be filled first.
 void Uart::wake_transmitter() {
     auto& uart = at(place_.address);
     uart.IM = uart.IM & ~kImTransmit;

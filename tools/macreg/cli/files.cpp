@@ -22,7 +22,7 @@ using registers::Register;
 
 namespace {
 
-/// All that is wrong, so that it can be mended at once.
+/// All errors of the file, so that they can be corrected in one pass.
 command_line::Failure bad_file(const std::string& name, const std::vector<FileProblem>& problems) {
     constexpr std::size_t kMost = 20;
     const auto line_of = [&](const FileProblem& one) {
@@ -49,7 +49,7 @@ std::string reason() {
     return std::strerror(errno);
 }
 
-/// Where lines go as they come: F.part, which becomes F when it is whole; or standard output.
+/// Output written line by line: to F.part, which is renamed to F when complete; or to standard output.
 class DumpFile {
   public:
     explicit DumpFile(const std::string& path) : path_(path) {
@@ -159,7 +159,7 @@ Json raw_or_null(std::optional<std::int64_t> raw) {
     return raw ? Json(*raw) : Json(nullptr);
 }
 
-/// Not read before the file broke off, which is no difference.
+/// Not read before the connection broke off: not counted as a difference.
 bool is_missing(std::optional<std::int64_t> raw, const ParameterSet& set) {
     return !raw && !set.incomplete.empty();
 }

@@ -117,7 +117,7 @@ Json document_of(const Response& response) {
             {"peak_torque", response.peak_torque}};
 }
 
-/// What `fit` prints and its document, put together piece by piece.
+/// Builds what `fit` prints and its JSON document.
 struct Report {
     std::string text{};
     Json document = Json::object();

@@ -21,7 +21,7 @@ struct LoadArguments {
     bool another = false;
 };
 
-/// The names, the first twenty of them.
+/// The names, at most twenty of them.
 std::string names_of(const std::vector<Difference>& all) {
     constexpr std::size_t kMost = 20;
     std::string text;
@@ -76,7 +76,7 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
     return some;
 }
 
-/// Writes the differences; when something breaks off it says what has been done.
+/// Writes the differences; on a failure it reports what has been written.
 class Writer {
   public:
     Writer(Session& session, const LoadArguments& options, const std::vector<Difference>& all)
@@ -161,7 +161,7 @@ class Writer {
     const LoadArguments& options_;
     const std::vector<Difference>& all_;
     std::size_t done_ = 0;
-    bool in_doubt_ = false;  ///< the write under way may have arrived
+    bool in_doubt_ = false;  ///< the pending write may have reached the motor
     Trail trail_;
 };
 
@@ -173,7 +173,7 @@ ParameterSet read_own(Session& session) {
     }
 }
 
-/// What the file says and is not written: the address of this motor is its own.
+/// In the file but not written: the motor keeps its own address.
 std::string left_alone(const LoadArguments& options, const ParameterSet& wanted, const ParameterSet& own) {
     for (const Difference& one : differences(wanted, own)) {
         if (one.left && one.right && one.reg == &address_register(own.model))
@@ -183,7 +183,7 @@ std::string left_alone(const LoadArguments& options, const ParameterSet& wanted,
     return {};
 }
 
-/// A file of another axis is a mistake more often than not.
+/// A file of another axis is usually a mistake.
 void look_at_address(Session& session, const ParameterSet& wanted, const LoadArguments& options) {
     const auto address = wanted.header.find("address");
     const unsigned own = session.motor().address();

@@ -24,13 +24,13 @@ std::uint8_t address_of(const MidiCommon& options) {
     return static_cast<std::uint8_t>(said);
 }
 
-/// After a stop that was not confirmed.
+/// The warning after a stop that was not confirmed.
 std::string unstopped(MidiSession& session) {
     try {
         if (!session.module().moves())
             return fmt::format("address {} does not answer to a stop; it stood when looked at",
                                session.address());
-    } catch (const std::runtime_error&) {  // nobody knows
+    } catch (const std::runtime_error&) {  // the state is unknown
     }
     return fmt::format("STILL TURNING, perhaps: address {} does not answer to a stop", session.address());
 }
@@ -119,7 +119,7 @@ std::int32_t come_to_rest(MidiSession& session) {
     Kind kind = Kind::silence;
     try {
         kind = master.try_command(address, midi::reg::STOP).kind;
-    } catch (const LineError&) {  // told by the next one
+    } catch (const LineError&) {  // reported by the next request
     }
     if (kind != Kind::accepted) stop_hard();
     const base::Instant end = session.link().now() + kLongestRamp;

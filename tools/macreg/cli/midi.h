@@ -11,18 +11,18 @@
 /// `macreg midi ...`: MIDI Ingenierie modules.
 namespace nplc::macreg::cli {
 
-/// What stands between `midi` and its command, or before `midi`.
+/// The options given between `midi` and its command, or before `midi`.
 struct MidiCommon {
     explicit MidiCommon(Common& all) : common(all) {}
     Common& common;
     operator Common&() const { return common; }
     static constexpr int kNotSaid = std::numeric_limits<int>::min();
-    int address = kNotSaid;  ///< then what a module from the factory has
+    int address = kNotSaid;  ///< by default the factory's address
     std::uint32_t baud = 0;
     std::string model;
 };
 
-/// Throws UserError if --model names none; nothing if it was not said.
+/// Throws UserError if --model names no model; nullopt if it was not given.
 std::optional<midi::reg::Model> midi_model(const MidiCommon& midi);
 bool is_can(const MidiCommon& midi);
 std::uint32_t midi_baud(const MidiCommon& midi);
@@ -58,16 +58,16 @@ class MidiSession {
     std::unique_ptr<midi::Module> module_;
 };
 
-/// What was typed; throws UserError with `what` before the error.
+/// Reads the typed value; throws UserError with `what` before the error.
 std::int64_t number_of(const midi::TypedNumber& number, const char* what = "");
 
 /// {"name":, "raw":, "value":}
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale);
 
-/// Signals are noted from now on, a second one and a hang-up too: what moves is stopped first.
+/// From now on signals are recorded (a second one and a hang-up too): a moving motor is stopped first.
 void hold_signals();
-/// 17h, and 18h where that is refused or takes too long; until it stands. The position. Throws LineError with
-/// a warning in capitals if no stop is confirmed.
+/// Sends 17h, and 18h where that is refused or takes too long, until the motor stands still; returns the
+/// position. Throws LineError with a warning in capitals if no stop is confirmed.
 std::int32_t bring_to_rest(MidiSession& session);
 
 /// Within a handler: ends the motion and throws the error again, with the warning if no stop is confirmed.

@@ -28,7 +28,7 @@ struct MoveOptions {
     bool no_wait = false;
 };
 
-/// One damaged bit makes a refusal of an acceptance, and then it moves.
+/// One damaged bit can turn an acceptance into a refusal; the module then moves although it seemed to refuse.
 [[noreturn]] void end_refused(MidiSession& session, const midi_client::Refused& error) {
     if (!error.by_18h() || !session.module().moves()) throw error;
     throw midi_client::Refused(
@@ -36,8 +36,8 @@ struct MoveOptions {
                     midi::position_text(bring_to_rest(session), session.module().known_scale())));
 }
 
-/// A second one to the same place is refused while the first is under way, so doubt is resolved by asking
-/// twice.
+/// A second command to the same position is refused while the first is in progress, so an uncertain result is
+/// resolved by asking twice.
 void start_move(MidiSession& session, std::int32_t target) {
     const std::uint32_t data = data_of(midi::reg::GO_TO, target);
     try {
@@ -100,7 +100,7 @@ struct JogOptions {
     std::string time;
 };
 
-/// True when it is to end: its time, or Enter.
+/// True when the motion is to end: its time is over, or Enter was pressed.
 bool jog_is_over(MidiSession& session, base::Instant end, bool keys) {
     if (session.link().now() >= end) return true;
     return keys && host::input_within(base::Milliseconds{0});
@@ -124,7 +124,7 @@ std::string turn(MidiSession& session, base::Microseconds time, bool keys) {
     return {};
 }
 
-/// Whatever happens, the module stands at the end, or it is said that it may not.
+/// On every path the module is stopped at the end, or a warning says that it may not be.
 void jog(const MidiCommon& midi, const JogOptions& options) {
     const std::int64_t period = number_of(midi::typed_period(options.speed, midi_model(midi)));
     const base::Microseconds time{
@@ -165,7 +165,7 @@ struct StopOptions {
     bool all = false;
 };
 
-/// All act on a general message, and one answers.
+/// A general message is executed by all modules, and one answers.
 void stop_all(MidiSession& session, midi::reg::Command command) {
     const auto answer = session.master().try_command(session.link().everyone(), command);
     using Kind = midi_client::Answer::Kind;

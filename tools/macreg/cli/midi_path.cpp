@@ -20,7 +20,7 @@ using midi_client::Waypoint;
 struct Job {
     std::vector<std::uint8_t> addresses{};
     std::vector<Waypoint> path{};  ///< absolute positions
-    std::string about{};           ///< what a user wants to know before it begins
+    std::string about{};           ///< a note for the user before it begins
 };
 
 /// 003 §V.8: 0 is all of them.

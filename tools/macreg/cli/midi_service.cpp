@@ -10,11 +10,11 @@ using midi_client::Answer;
 
 namespace {
 
-/// 000 §VI 00h: it hears nothing for two seconds.
+/// 000 §VI 00h: the module does not receive for two seconds.
 constexpr base::Microseconds kDeaf{2'200'000};
 constexpr const char* kBaudCodes = "9600, 19200 or 38400";
 
-/// Looks whether it answers again; its release.
+/// Checks whether the module answers again; returns its release.
 std::string greet(MidiSession& session, std::uint8_t address) {
     session.master().pause(kDeaf, goes_on);
     return midi::release_text(session.master().query(address, midi::reg::GET_RELEASE));
@@ -67,7 +67,7 @@ void program_can(MidiSession& session, std::uint8_t address) {
             session.link().name()));
 }
 
-/// 000 §VI 08h goes to all; said with --address, to that one only.
+/// 000 §VI 08h goes to all modules; with --address, to that one only.
 void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
     const std::uint8_t to = to_one ? session.address() : session.link().everyone();
     if (to_one) session.master().expect_alone(to);
@@ -154,7 +154,7 @@ class MidiSearch {
         search_.hear(session.link().heard_anything());
     }
 
-    /// A damaged answer is one: it is asked for again.
+    /// A damaged answer counts as an answer: the request is repeated.
     void look(MidiSession& session, std::uint8_t address, std::uint32_t baud) {
         using Kind = midi_client::Answer::Kind;
         midi_client::Answer answer = session.master().try_query(address, midi::reg::GET_RELEASE);
@@ -188,7 +188,7 @@ class MidiSearch {
         search_.add(fmt::format("address {:>3}{}: {}", address, speed, what), std::move(one));
     }
 
-    /// Who answers and is no module, as far as one can tell.
+    /// Devices that answer but do not seem to be modules.
     void note(std::uint8_t address, midi_client::Answer::Kind kind) {
         using Kind = midi_client::Answer::Kind;
         if (kind == Kind::refused)

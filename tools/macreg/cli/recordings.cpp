@@ -36,7 +36,7 @@ struct Move {
     std::int64_t raw = 0;
     State state = State::not_yet;
 
-    /// What became of it, behind what went wrong.
+    /// What became of the move, appended to the error.
     std::string words(registers::Model model) const {
         if (reg == nullptr) return {};
         const std::string what = fmt::format("{} = {}", reg->name, value_text(*reg, model, raw));
@@ -87,7 +87,7 @@ Move read_move(Session& session, const std::string& text) {
     return {reg, raw};
 }
 
-/// Through a gateway too, which may refuse it without an answer.
+/// Also used through a gateway, which may refuse it without an answer.
 void carry_out(Motor& motor, Move& move) {
     move.state = Move::State::sent;
     try {
@@ -158,7 +158,7 @@ void poll(Session& session, const RecordArguments& options, const RecordOptions&
         for (auto& column : recording.columns) column.values.resize(recording.size());
         recording.incomplete = error.what();
         const bool without_end = how.samples == 0 && how.lasts.count() == 0;
-        if (without_end && !goes_on()) recording.incomplete.clear();  // Ctrl-C is how it ends
+        if (without_end && !goes_on()) recording.incomplete.clear();  // Ctrl-C is the normal end
         save(session, options, recording);
         if (recording.incomplete.empty()) return;
         throw;
@@ -167,7 +167,7 @@ void poll(Session& session, const RecordArguments& options, const RecordOptions&
     save(session, options, recording);
 }
 
-/// What was read of a buffer before it broke off, which no second recording brings back.
+/// What was read of a buffer before the failure; a second recording would not have it.
 [[noreturn]] void keep_broken(Session& session, const RecordArguments& options, const RecordOptions& how,
                               Recording& recording, const std::string& why, int exit_code) {
     session.progress("");
@@ -260,7 +260,7 @@ void record(Session& session, const RecordArguments& options) {
     }
 }
 
-/// What TESTU_MODE and TESTA_MODE leave in the buffer, or another program.
+/// Data that TESTU_MODE, TESTA_MODE or another program left in the buffer.
 void samples(Session& session, const RecordArguments& options) {
     const std::string file = output_file(options.output, options.force);
     if (const std::string why = whole_files::why_not_made(file); !file.empty() && !why.empty())

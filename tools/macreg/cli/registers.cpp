@@ -63,7 +63,7 @@ std::string line_of(const Register& reg, Model model) {
                        registers::details_of(model, reg.number)->title);
 }
 
-/// All of one register, if only one is asked for.
+/// All details of the register, if only one is asked for.
 std::string whole(const Register& reg, Model model) {
     const registers::Details& details = *registers::details_of(model, reg.number);
     std::string text = fmt::format("{} {}: {}\n  {}, {}{}, {}\n", reg.number, reg.name, details.title,
@@ -146,7 +146,7 @@ RawValues values_of(const std::vector<Assignment>& all) {
 
 void look_for_danger(Session& session, const std::vector<Assignment>& all, bool force,
                      const std::string& limits) {
-    std::map<std::string, std::string> dangers;  // what may happen, and by which registers
+    std::map<std::string, std::string> dangers;  // the warnings, and the registers that cause them
     for (const Assignment& one : all) {
         const Model model = session.motor().model();
         if (const std::string problem = no_mode(model, *one.reg, one.raw); !problem.empty())
@@ -175,7 +175,7 @@ std::string line_of(const Assignment& one, Model model, const ChangeResult& outc
                        long_value_text(*one.reg, model, outcome.before));
 }
 
-/// Not all of it was written.
+/// Only part of it was written.
 [[noreturn]] void broke_off(const std::string& why, int exit_code, const std::vector<Assignment>& all,
                             std::size_t done, bool in_doubt) {
     std::string written;
@@ -236,7 +236,7 @@ struct WatchArguments {
     bool all = false;
 };
 
-/// What one wants to see of any motor.
+/// The registers of general interest on any motor.
 const std::vector<std::string> kUsual{"MODE_REG", "P_SOLL", "P_IST",  "V_SOLL",
                                       "V_IST",    "VF_OUT", "FLWERR", "ERR_STAT"};
 
@@ -244,7 +244,7 @@ std::string seconds_text(base::Microseconds time) {
     return fmt::format("{:.3f}", static_cast<double>(time.count()) / 1e6);
 }
 
-/// A table that is drawn over, or a line or document at every change.
+/// A table that is redrawn, or a line or document at every change.
 class Table {
   public:
     Table(Session& session, const WatchArguments& options, std::vector<const Register*> registers)

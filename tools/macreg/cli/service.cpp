@@ -21,7 +21,7 @@ std::string names(const std::vector<std::string>& all) {
     return fmt::format("{}", fmt::join(all, ", "));
 }
 
-/// What the motor will do when it starts anew: owners should know before they say yes.
+/// What the motor will do after the reset: the user should know before confirming.
 std::string what_a_start_does(Session& session) {
     Motor& motor = session.motor();
     const Model model = motor.model();
@@ -50,7 +50,7 @@ void with_service(Session& session, const ServiceArguments& options,
     } catch (const mactalk_client::Ended& error) {
         constexpr const char* kOrders[] = {"not sent", "sent, not known to be done", "done"};
         const Trail& trail = service.trail();
-        // Refused before anything was sent: there is nothing to tell.
+        // Refused before anything was sent: nothing to report
         if (error.exit_code() == command_line::kRefused && trail.ran_in.empty() && !trail.in_safe_mode) throw;
         throw command_line::Failure(error.exit_code(),
                                     fmt::format("{}; {}", error.what(), service.left_behind()),
@@ -103,7 +103,7 @@ void reset(Session& session, const ServiceArguments& options) {
     });
 }
 
-/// In memory; a line that is gone cannot do it, and what went wrong first is what is told.
+/// In memory only; a lost line makes it fail, and the first error is the one reported.
 void put_back(Motor& motor, const registers::Register& reg, std::int64_t raw) {
     try {
         static_cast<void>(change(motor, reg, raw));
@@ -148,7 +148,7 @@ void prepare(Session& session, const ServiceArguments& options) {
         try {
             changed = service.save();
         } catch (...) {
-            // As found: what is in memory would be saved by somebody else some day.
+            // Restored as found: otherwise a later save would store what is in memory
             if (service.trail().order == Trail::Order::none) put_back(motor, bits, before);
             throw;
         }

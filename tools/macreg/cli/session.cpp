@@ -37,8 +37,8 @@ bool answers(mactalk_client::Master& master, std::uint8_t address, const Common&
     }
 }
 
-/// The only motor on the line says its address itself; it keeps 255 if it says none that can be used. Behind
-/// a gateway it has the one that the gateway's setting says.
+/// The only motor on the line reports its address itself; 255 is kept if it reports no usable one. Behind a
+/// gateway the motor has the address of the gateway's setting.
 std::uint8_t find_address(mactalk_client::Master& master, const Common& common) {
     if (common.address != 0) return static_cast<std::uint8_t>(common.address);
     const Model model = Motor::find_model(master, kEveryone);
@@ -63,7 +63,7 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
     return *wanted;
 }
 
-/// A gateway whose link is down answers for itself only.
+/// A gateway whose motor link is down answers for its own registers only.
 [[noreturn]] void nobody(mactalk_client::Master& master, const Common& common, const LineError& error) {
     namespace gw = registers::gateway;
     const bool silent = error.kind() == LineError::Kind::no_answer;
@@ -92,7 +92,7 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
                         "shows them)");
 }
 
-/// What is wrong in the command line is told before anybody is asked.
+/// Errors in the command line are reported before anything is sent.
 std::unique_ptr<host::ByteClient> open(const Common& common) {
     static_cast<void>(model_option(common));
     return command_line::open_with_password(common, registers::gateway::kDefaultAddress);

@@ -27,31 +27,31 @@ using command_line::output_has_reader;
 using command_line::progress;
 using command_line::UserError;
 
-/// What stands before or behind every subcommand. `address` 0: ask the only motor on the line for its own.
+/// The common options, before or after a subcommand. `address` 0: ask the only motor on the line for its own.
 struct Common : command_line::Common {
     std::string model;  ///< empty: found out by reading
     bool yes = false;   ///< no questions
-    std::string date;   ///< of now, for what is written down
+    std::string date;   ///< the present date, for written files
 };
 
-/// The motor said no, or is not in a state to do it.
+/// The motor refused, or is not in a state to do it.
 [[noreturn]] void refuse(const std::string& text);
 [[noreturn]] void refuse(const std::string& text, const Json& details);
 
 /// The model of --model; throws UserError if there is none of that name.
 std::optional<registers::Model> model_option(const Common& common);
 
-/// The registers of these names or numbers; throws UserError at the first that is none.
+/// The registers of these names or numbers; throws UserError at the first unknown one.
 std::vector<const registers::Register*> find_registers(registers::Model model,
                                                        const std::vector<std::string>& names);
 
-/// A remark for a user: standard error, not with --json.
+/// A note for the user: on standard error, not with --json.
 void remark(const Common& common, const std::string& text);
 /// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
 /// a sentence that says what will happen.
 void ask(const Common& common, const std::string& what);
 
-/// A motor that answered, and how results are told.
+/// A motor that answered, and how results are printed.
 class Session {
   public:
     explicit Session(const Common& common);
@@ -79,8 +79,8 @@ class Session {
     std::unique_ptr<Motor> motor_;
 };
 
-/// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing or, without
-/// `force`, a file that is there.
+/// The file of -o: empty for standard output, which is "-"; throws UserError if the name is empty or, without
+/// `force`, the file exists.
 std::string output_file(const std::string& option, bool force);
 
 /// "1 register", "2 registers"
@@ -103,7 +103,7 @@ Recording read_recording(const std::string& path);
 /// "a MAC800", "one of MAC50 to MAC141"
 std::string model_words(const ParameterSet& set);
 
-/// What `why` says: numbered sentences, each with the values that make it so and the remedy. `key` is that of
+/// What `why` prints: numbered sentences, each with the values that prove it and the remedy. `key` is that of
 /// the values in the JSON document.
 struct ShownValue {
     std::string text;
@@ -115,7 +115,7 @@ void tell_findings(const Common& common, const std::vector<Finding>& findings, c
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);
 
-/// `find`: at which speeds somebody answers.
+/// `find`: the baud rates at which a device answers.
 class Search {
   public:
     struct Speeds {
@@ -125,13 +125,14 @@ class Search {
 
     Search(Common& common, Speeds options) : common_(common), options_(options) {}
 
-    /// `at` looks at one speed: that of the line, or one after the other until there is somebody.
+    /// `at` tries one baud rate: that of the line, or one after the other until a device answers.
     void run(std::uint32_t this_speed, std::span<const std::uint32_t> speeds,
              const std::function<void(std::uint32_t baud)>& at);
     void add(const std::string& line, Json document);
-    /// Bytes came that were no answer.
+    /// Bytes were received that were no valid answer.
     void hear(bool noise) { noise_ = noise_ || noise; }
-    /// `key`: of all in the JSON document. What is told of nobody with and without noise.
+    /// `key`: of the list in the JSON document. The texts printed when no device answers, with and without
+    /// noise.
     void tell(const char* key, const char* of_noise, const char* of_silence) const;
 
   private:

@@ -24,13 +24,13 @@ void ui(Common& common) {
     if (common.json) throw UserError("ui is for people and knows no --json; see get, set and watch");
     UiOptions options;
     {
-        // Who is there; the screen then opens the port for itself.
+        // Finds the motors; the screen then opens the port itself
         Session session(common);
         options.address = session.motor().address();
         options.model = session.motor().model();
         options.model_name = session.model_name();
     }
-    constexpr unsigned kAttempts = 2;  // a user who waits presses again
+    constexpr unsigned kAttempts = 2;  // a waiting user presses the key again
     options.line = {
         .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
     options.title = fmt::format("macreg {} {} at {}", options.model_name, options.address, common.port);

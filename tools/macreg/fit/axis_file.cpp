@@ -7,7 +7,7 @@
 namespace nplc::macreg {
 namespace {
 
-constexpr double kStepsInACount = 16;  // of V_SOLL and A_SOLL
+constexpr double kStepsInACount = 16;  // of V_SOLL and A_SOLL, per count
 
 constexpr const char* kNoConstant =
     "motion tells torques as parts of the motor's own only; give an inertia that you know, such as --inertia "

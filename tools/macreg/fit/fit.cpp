@@ -101,7 +101,7 @@ constexpr const char* kThereAndBack =
     "the shaft turned one way only; record a move there and one back (--move P_SOLL=+20480, then --move "
     "P_SOLL=+-20480) and name both";
 
-/// What makes a value useless, and what to record for it.
+/// Why a value cannot be used, and what to record for it.
 class Judge {
   public:
     Judge(const Seen& seen, const Fit& fit) : seen_(seen), fit_(fit) {}
@@ -224,7 +224,7 @@ FoundPlant found_plant(const Fit& fit, registers::Model model, const std::string
         &plant_file::Plant::dead_time};
     FoundPlant found;
     found.plant.motor = motor;
-    // Motion tells torques as parts of the motor's own only: a known inertia tells how much that is.
+    // Motion yields torques only relative to the motor's own: a known inertia gives their scale
     const Estimate& j = fit[Parameter::inertia];
     double constant = 1;
     if (known_inertia && j.told) {

@@ -16,10 +16,10 @@ using registers::Register;
 
 constexpr std::string_view kAnySmall = "MAC50-141";
 constexpr const char* kHow = "record again: macreg record P_IST,VF_OUT -o move.csv --move P_SOLL=+20480";
-constexpr double kWhole = 0.02;               // as near to a raw step a value is that was made of one
-constexpr double kWholeCount = 4294967296.0;  // P_IST goes round
+constexpr double kWhole = 0.02;  // largest distance from a raw step of a value that was converted from one
+constexpr double kWholeCount = 4294967296.0;  // P_IST wraps around
 
-/// What is wrong, one line.
+/// The error, one line.
 struct Unfit {
     std::string why;
 };
@@ -104,7 +104,7 @@ std::vector<double> summed(const std::vector<double>& velocities) {
     return counts;
 }
 
-/// Those around which it stays within two counts for as long as no motion that matters takes.
+/// Samples around which it stays within two counts for as long as no relevant motion takes.
 std::vector<char> rests_in(const std::vector<double>& counts) {
     constexpr std::size_t kAround = 5;
     constexpr double kStill = 2;
@@ -120,7 +120,7 @@ std::vector<char> rests_in(const std::vector<double>& counts) {
 }
 
 void add_field(Series& series, registers::Model model) {
-    const double field = model == registers::Model::mac800 ? 2000 : 2048;  // counts in a turn of it
+    const double field = model == registers::Model::mac800 ? 2000 : 2048;  // counts in one turn of the field
     for (std::size_t i = 0; i < series.size(); ++i) {
         const double middle = (series.counts[i] + series.counts[i - std::min<std::size_t>(i, 1)]) / 2;
         series.sine.push_back(std::sin(2 * std::numbers::pi * middle / field));

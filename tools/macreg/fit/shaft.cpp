@@ -57,12 +57,12 @@ class Motion {
     double velocity_;
 };
 
-/// Goes through the samples and has `after` look at each.
+/// Steps through the samples and calls `after` for each.
 template <class After>
 void follow(Motion& motion, const Shaft& shaft, const Ripple& ripple, const Series& series, After after) {
     const double whole = std::floor(shaft.dead_time);
     const double part = shaft.dead_time - whole;
-    const auto late = static_cast<std::ptrdiff_t>(whole) + 1;  // asked for at the end of a sample
+    const auto late = static_cast<std::ptrdiff_t>(whole) + 1;  // requested at the end of a sample
     const auto last = static_cast<std::ptrdiff_t>(series.size()) - 1;
     const auto asked = [&](std::ptrdiff_t i) {
         return series.torque[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTorque = 10;  // a unit of torques among the unknowns
+constexpr double kTorque = 10;  // scale of the torques among the unknowns
 constexpr double kEarliest = -0.5;
 constexpr double kLatest = 7;  // samples
 constexpr Index kDeadTime = 4;
@@ -34,7 +34,7 @@ double at(const VectorXd& x, std::size_t i) {
     return x(static_cast<Index>(i));
 }
 
-/// Eigen's solver asks for these names.
+/// Names required by Eigen's solver.
 struct Functor {
     const Problem& problem;
 
@@ -66,7 +66,7 @@ std::vector<double> shifted(const std::vector<double>& torque, double dead_time)
     return mean;
 }
 
-/// Torque summed twice is inertia times position, and so on: linear in all that is looked for.
+/// Torque summed twice equals inertia times position, and so on: linear in all unknowns.
 VectorXd guess_at(const Problem& problem, double dead_time) {
     const Index columns = 4 + 2 * static_cast<Index>(problem.all.size());
     MatrixXd a = MatrixXd::Zero(problem.samples(), columns);
@@ -79,7 +79,7 @@ VectorXd guess_at(const Problem& problem, double dead_time) {
         double sum = 0, twice = 0, signs = 0, signs_twice = 0, way = 0, ones = 0, ones_twice = 0;
         for (std::size_t i = 0; i < series.size(); ++i, ++row) {
             if (i > 0 && series.at_rest[i] == 0) {
-                // A torque in a sample moves it by half of what it does later.
+                // A torque moves the shaft in its own sample by half of what it does in later ones
                 const double velocity = series.velocity(i);
                 const double sign = velocity > 0.5 ? 1 : velocity < -0.5 ? -1 : 0;
                 twice += sum + torque[i] / 2;
@@ -214,7 +214,7 @@ VectorXd Problem::errors(const VectorXd& x) const {
 
 VectorXd solve(const Problem& problem) {
     constexpr std::array kDeadTimes{0.15, 0.6, 1.2, 2.0, 3.0, 4.5};
-    // Little is taken over, for a shaft that is as foretold, and more.
+    // Small gains if the prediction fits, and larger ones
     constexpr std::array<std::pair<double, double>, 2> kGainsTried{{{-2, -5}, {0, -2}}};
     constexpr int kSteps = 60;
     Problem held = problem;

@@ -24,7 +24,7 @@ const Scale& Module::scale() {
     return scale_;
 }
 
-/// A module that does not let its RAM be read is taken to have the usual one (000 §VI 26h).
+/// A module that refuses reads of its RAM is assumed to have the usual one (000 §VI 26h).
 std::uint32_t Module::ask_imax() {
     try {
         return master_.query(address_, reg::GET_RAM, reg::kImaxAddress);

@@ -84,7 +84,7 @@ std::int64_t increments(Model model) {
     return reg::facts_of(model).increments_per_rev;
 }
 
-/// Increments a second that one of the unit is; nothing if it is no speed.
+/// Increments/s in one of the unit; nullopt if it is no unit of speed.
 std::optional<Ratio> speed_unit(const std::string& unit, std::optional<Model> model, bool& wants_model) {
     if (unit == "inc/s") return Ratio{1, 1};
     if (unit != "rpm" && unit != "rev/s") return std::nullopt;
@@ -104,7 +104,7 @@ double increments_of(const Scale& scale) {
     return reg::facts_of(*scale.model).increments_per_rev;
 }
 
-/// Four digits that count, without zeros behind the point.
+/// Four significant digits, without trailing zeros.
 std::string short_number(double value) {
     std::string text = fmt::format("{:.2f}", value);
     while (text.ends_with('0')) text.pop_back();
@@ -151,7 +151,7 @@ TypedNumber typed_choice(const Parameter& parameter, std::string_view text) {
     return wrong(fmt::format("'{}': write {}", text, units_text(parameter)));
 }
 
-/// A command's own number.
+/// A raw value, typed as `raw:N`.
 TypedNumber typed_raw(std::string_view text) {
     const auto quantity = read_quantity(text);
     if (!quantity || !quantity->unit.empty() || quantity->size.denominator != 1)

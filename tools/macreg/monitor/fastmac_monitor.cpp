@@ -128,7 +128,7 @@ class FastMacMonitor final : public Monitor {
         const bool toggle = (byte & fastmac::kToggle) != 0;
         const bool again = last_toggle_ && *last_toggle_ == toggle;
         const auto command = fastmac::decode_command(byte, options_.code);
-        if (again && last_command_ == byte) return;  // a repeat does nothing; masters send many
+        if (again && last_command_ == byte) return;  // a repeated command has no effect; masters send many
         tell({.at = at,
               .request = fmt::format("{:02X} {}, toggle {}", byte, command_words(command), toggle ? 1 : 0),
               .flaw = again ? "the toggle is as before: the motor takes no such command" : "",
@@ -182,7 +182,7 @@ class FastMacMonitor final : public Monitor {
         }
     }
 
-    /// The last `size` bytes; what stood before them was no message.
+    /// The last `size` bytes; earlier ones belonged to no message.
     std::vector<std::uint8_t> split(Stray& stray, std::size_t size) {
         std::vector<std::uint8_t> own(stray.bytes.end() - static_cast<std::ptrdiff_t>(size),
                                       stray.bytes.end());

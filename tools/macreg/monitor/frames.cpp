@@ -33,7 +33,7 @@ bool ends_with_head(const std::vector<std::uint8_t>& bytes) {
            bytes[size - 1] == bytes[size - 3];
 }
 
-/// What stands in a message's protected byte number `index`.
+/// The name of a message's protected byte number `index`.
 std::string part_of(std::uint8_t head, std::size_t index) {
     constexpr std::array<const char*, 3> kParts{"address", "register", "length"};
     const bool long_head = head >= 0x50 && head <= 0x52;
@@ -88,7 +88,7 @@ void FrameCutter::emit(Frame::Kind kind, std::string flaw) {
     state_ = State::hunting;
 }
 
-/// Three equal head bytes: what came before them is over.
+/// Three equal head bytes: the message before them has ended.
 bool FrameCutter::begin_at_head() {
     if (!ends_with_head(bytes_)) return false;
     const std::vector<std::uint8_t> head(bytes_.end() - kHead, bytes_.end());
@@ -123,7 +123,7 @@ void FrameCutter::take_pair() {
                       part_of(bytes_.front(), index), first, second, base::inverse(first)));
 }
 
-/// Four equal bytes: the first one was not the message's.
+/// Four equal bytes: the first one did not belong to the message.
 void FrameCutter::shift_head() {
     ready_.push_back({Frame::Kind::noise, times_.front(), {bytes_.front()}, {}});
     bytes_.erase(bytes_.begin());

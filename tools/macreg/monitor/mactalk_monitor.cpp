@@ -20,9 +20,9 @@ namespace reg = registers;
 
 namespace {
 
-constexpr base::Microseconds kLongestPause{100'000};  // more than a USB adapter holds bytes back
+constexpr base::Microseconds kLongestPause{100'000};  // more than the latency of a USB adapter
 constexpr std::size_t kAddressAt = 3;
-constexpr std::size_t kRegisterReply = 11;  // bytes of an answer beside its data, each data byte two
+constexpr std::size_t kRegisterReply = 11;  // bytes of an answer without its data; each data byte takes two
 constexpr std::size_t kSampleReply = 9;
 
 class MactalkMonitor final : public Monitor {
@@ -114,7 +114,7 @@ class MactalkMonitor final : public Monitor {
     }
 
     void reply(Side side, Frame& frame) {
-        // No number of bytes fits both forms: registers come 4 or 64 at a time, samples 8 or 16.
+        // No number of bytes matches both forms: registers come 4 or 64 at a time, samples 8 or 16
         for (const auto& [form, data] : {std::pair{mactalk::Answer::registers, mactalk::kReadBytes},
                                          std::pair{mactalk::Answer::registers, mactalk::kBlockBytes},
                                          std::pair{mactalk::Answer::samples, mactalk::kSampleBytes},
@@ -211,7 +211,7 @@ class MactalkMonitor final : public Monitor {
         return {};
     }
 
-    /// Four bytes written to a 16-bit register reach the next one too.
+    /// Four bytes written to a 16-bit register overwrite the next one too.
     std::string overflow_words(const mactalk::Request& request) const {
         if (is_gateway(request.address) || request.length != mactalk::kReadBytes) return {};
         const reg::Register* found = reg::find(options_.model, request.reg);

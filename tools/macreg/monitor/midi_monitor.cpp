@@ -93,7 +93,7 @@ class MidiMonitor final : public Monitor {
         Bytes bytes{};
     };
 
-    /// Of a stream with both directions what is no request may belong to an answer.
+    /// In a stream with both directions, bytes that are no request may belong to an answer.
     void from_master(std::uint8_t byte, base::Instant at, bool both) {
         if (byte == v24::kStx) release(both);
         held_.push_back(byte);
@@ -153,9 +153,9 @@ class MidiMonitor final : public Monitor {
     v24::RequestDecoder requests_;
     v24::AnswerDecoder answers_;
     std::optional<Asked> asked_;
-    Bytes held_;      ///< perhaps a request
-    Bytes unsent_;    ///< the master's, and no request
-    Bytes received_;  ///< the module's since the last request or answer
+    Bytes held_;      ///< possibly a request
+    Bytes unsent_;    ///< from the master, but no request
+    Bytes received_;  ///< from the module, since the last request or answer
     base::Instant last_{};
 };
 

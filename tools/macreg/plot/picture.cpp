@@ -56,7 +56,7 @@ constexpr int kFiner = 3;
 constexpr double kFontLine = 8.5;  // of the library's letters, in its own steps: as high as a line of size 1
 constexpr std::size_t kChannels = 3;
 
-/// The picture drawn three times as large and made small again, which smooths it.
+/// The picture drawn three times as large and scaled down (anti-aliasing).
 class Canvas {
   public:
     explicit Canvas(const Picture& picture)
@@ -96,7 +96,7 @@ class Canvas {
                 static_cast<std::size_t>(x)] = colour;
     }
 
-    /// All points no further than `radius` from the stretch.
+    /// All points within `radius` of the line segment.
     void stroke(Point from, Point to, double radius, Colour colour) {
         from = {from.x * kFiner, from.y * kFiner};
         to = {to.x * kFiner, to.y * kFiner};

@@ -23,7 +23,7 @@ constexpr double kPixelsATime = 90;
 constexpr Colour kInk = 0x333333;
 constexpr Colour kFaint = 0xE3E3E3;
 constexpr Colour kAxis = 0x888888;
-// Told apart by colour-blind people too, and dark enough on white.
+// Distinguishable for colour-blind users, and dark enough on white.
 constexpr std::array<Colour, kMostCurves> kColours{0x0072B2, 0xD55E00, 0x009E73, 0xAA4499};
 
 struct Panel {
@@ -147,7 +147,7 @@ class Plotter {
         }
     }
 
-    /// With more samples than pixels: of each pixel's the first, the least, the greatest and the last.
+    /// With more samples than pixels: the first, minimum, maximum and last of each pixel.
     std::vector<Point> curve(const Column& column, const Box& box) const {
         const double scale = in_ms_ ? 1e3 : 1;
         const auto point = [&](std::size_t i) {

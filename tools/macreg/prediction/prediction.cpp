@@ -18,7 +18,7 @@ using registers::Model;
 constexpr double kLeastKvout = 1, kMostKvout = 10;  // 001 §3.2.13
 constexpr int kSamples = 900;
 constexpr double kAtRest = 3;         // counts
-constexpr double kOvershoot = 8;      // counts, that no gain need be given away for
+constexpr double kOvershoot = 8;      // counts; up to here no gain is reduced
 constexpr double kTorqueShare = 700;  // of 1023, that the move's acceleration takes
 
 std::uint8_t gain_register(Model model) {
@@ -50,7 +50,7 @@ Response response_to(const Move& move, const plant_file::Plant& plant, Model mod
     motor.write(gain_register(model), static_cast<std::int32_t>(gain));
     motor.write(registers::V_SOLL, move.v_soll);
     motor.write(registers::A_SOLL, move.a_soll);
-    motor.write(registers::MODE_REG, 2);  // held where it is first: a load may pull
+    motor.write(registers::MODE_REG, 2);  // first held at its position: a load may pull
     for (int i = 0; i < kSamples / 3; ++i) motor.sample();
     const std::int32_t target = motor.read(registers::P_SOLL) + static_cast<std::int32_t>(move.turn);
     motor.write(registers::P_SOLL, target);

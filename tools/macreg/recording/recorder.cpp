@@ -128,7 +128,7 @@ class BufferRecorder {
                 change_bits(0, 0);
                 restore();
             } catch (const LineError&) {
-                // The line is what failed; the first failure says so.
+                // The line has failed; the first error is the one reported.
             }
             throw;
         }
@@ -160,7 +160,7 @@ class BufferRecorder {
         return part.reg != nullptr && part.words == registers::cells_of(motor_.model(), *part.reg).count;
     }
 
-    /// Two numbers in a row that are one register are its value.
+    /// Two consecutive numbers of one register give its value.
     void find_parts() {
         std::array<std::uint8_t, kSlots> numbers{};
         for (std::size_t i = 0; i < kSlots; ++i)
@@ -190,7 +190,7 @@ class BufferRecorder {
     void plan() {
         std::string words;
         for (const Register* reg : options_.registers) {
-            // R: a sampled number yields the word that lies there (001 §3.2).
+            // R: a sampled number yields the word at that position (001 §3.2).
             const unsigned count = registers::cells_of(motor_.model(), *reg).count;
             parts_.push_back({reg, reg->number, count, slots_.size()});
             for (unsigned i = 0; i < count; ++i) slots_.push_back(static_cast<std::uint8_t>(reg->number + i));
@@ -228,7 +228,7 @@ class BufferRecorder {
     std::int64_t control() { return motor_.read(registers::CNTRL_BITS); }
     std::int64_t counted() { return motor_.read("REC_CNT"); }
 
-    /// What the motor clears by itself is written as 0 unless it is to be set.
+    /// Bits that the motor clears by itself are written as 0 unless they are to be set.
     void change_bits(std::int64_t set, std::int64_t clear) {
         const std::int64_t now = control();
         const std::int64_t wanted = (now & ~momentary_ & ~clear) | set;
@@ -245,7 +245,7 @@ class BufferRecorder {
         }
     }
 
-    /// How many samples there are.
+    /// The number of samples.
     std::size_t wait_until_recorded() {
         base::Instant moved = motor_.now();
         std::int64_t last = 0;
@@ -277,12 +277,12 @@ class BufferRecorder {
         return put_together(samples);
     }
 
-    /// From the start of the buffer to sample number `end`. The motor counts what it sent: after an answer
-    /// that did not come REC_CNT tells whether that was lost or the question.
+    /// From the start of the buffer to sample number `end`. The motor counts the samples it sent: after a
+    /// missing answer REC_CNT shows whether the answer was lost or the request.
     void read_pass(std::vector<std::optional<Sample>>& samples, std::size_t end) {
         rewind();
         got_ = samples;
-        auto& got = got_;  // stays when an exception ends the pass
+        auto& got = got_;  // a member, to survive an exception that ends the pass
         unsigned losses = 0;
         for (std::size_t i = 0; i < end;) {
             options_.progress({Phase::reading,
@@ -324,7 +324,7 @@ class BufferRecorder {
         for (const Part& part : parts_) recording.columns.push_back(column_for(part));
         recording.rate_hz = rate();
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            if (!samples[i]) continue;  // of a recording that broke off
+            if (!samples[i]) continue;  // missing, in a recording that ended early
             recording.time_s.push_back(static_cast<double>(i) / recording.rate_hz);
             for (std::size_t c = 0; c < parts_.size(); ++c) {
                 const std::size_t slot = parts_[c].slot;
@@ -362,7 +362,7 @@ class BufferRecorder {
     std::array<const Register*, kSlots> samples_{};
     std::array<std::int64_t, kSlots> saved_{};
     std::int64_t saved_inner_ = 0;
-    std::vector<std::optional<Sample>> got_;  ///< of the pass under way
+    std::vector<std::optional<Sample>> got_;  ///< of the present pass
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// The library's macros collide with ordinary names; here they are functions.
+// The library's macros collide with ordinary names; NCURSES_NOMACROS makes them functions.
 #define NCURSES_NOMACROS 1
 #define NCURSES_WIDECHAR 1
 #include <curses.h>

@@ -54,7 +54,7 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
         const auto end = std::max(first + 1, static_cast<std::size_t>(size * (x + 1) / across));
         for (std::size_t i = first; i < std::min(end, values.size()); ++i) {
             const int y = dot_of(values[i]);
-            // What lies between two neighbours is filled, so that a step is a line.
+            // The gap between two neighbours is filled, so that a step is a line
             for (int between = std::min(before < 0 ? y : before, y); between <= std::max(before, y);
                  ++between)
                 set(x, between);

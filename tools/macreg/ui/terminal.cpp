@@ -21,7 +21,7 @@ void on_end(int /*signal*/) {
     g_ended = 1;
 }
 
-/// The program is lost, the terminal is not.
+/// Restores the terminal before the program crashes.
 void on_crash(int signal) {
     ::endwin();
     std::signal(signal, SIG_DFL);
@@ -31,7 +31,7 @@ void on_crash(int signal) {
 constexpr int kEscape = 27;
 constexpr int kDelete = 127;
 constexpr int kCtrlU = 21;
-constexpr int kEscapeDelay = 50;  // milliseconds until an escape is just that
+constexpr int kEscapeDelay = 50;  // milliseconds until an escape is a key of its own
 
 struct KeyCode {
     int code;

@@ -6,7 +6,7 @@
 
 namespace nplc::macreg {
 
-/// The terminal as long as the full screen has it; put back by the destructor, and before a crash ends the
+/// Owns the terminal while the full screen is shown; restored by the destructor, and before a crash ends the
 /// program. One at a time.
 class Terminal {
   public:
@@ -18,7 +18,7 @@ class Terminal {
 
     /// Waits no longer than this for a key.
     static KeyPress key(int milliseconds);
-    /// Until SIGINT, SIGTERM, SIGHUP or SIGQUIT came.
+    /// True until SIGINT, SIGTERM, SIGHUP or SIGQUIT is received.
     static bool goes_on();
     bool has_colours() const { return colours_; }
     /// Braille and line characters can be shown.

@@ -27,13 +27,13 @@ constexpr base::Microseconds kRedraw{100'000};
 struct Quit {};
 struct GivenUp {};
 
-/// The gateway's own address, unless a motor has it.
+/// The gateway's own address, unless a motor uses it.
 std::uint8_t gateway_beside(std::uint8_t motor) {
     constexpr std::uint8_t kGateway = registers::gateway::kDefaultAddress;
     return motor == kGateway ? std::uint8_t{0} : kGateway;
 }
 
-/// A wire that a monitor listens to.
+/// A line that a monitor listens to.
 class TappedWire final : public host::ByteClient {
   public:
     TappedWire(std::unique_ptr<host::ByteClient> wire, Monitor& monitor)
@@ -95,7 +95,7 @@ class App {
         draw(model_, terminal_, options_.title);
     }
 
-    /// Does what asks the line; what goes wrong is shown.
+    /// Executes a request to the motor; an error is shown.
     template <class What>
     void try_to(What what) {
         if (motor_ == nullptr) return model_.tell("there is no connection", true);
@@ -231,7 +231,7 @@ class App {
         }
     }
 
-    /// Shows how far it is; a key or a signal ends it.
+    /// Shows the progress; a key or a signal cancels it.
     void look_on(const RecordProgress& progress) {
         const base::Instant now = wire_->now();
         if (now - drawn_ < kRedraw) return;
@@ -246,7 +246,7 @@ class App {
         if (!Terminal::goes_on() || Terminal::key(0).key == Key::escape) throw GivenUp{};
     }
 
-    /// What is read while nobody presses a key: state and, if wanted, what is on the screen, in turn.
+    /// Read while no key is pressed: state and, if enabled, the registers on the screen, in turn.
     void refresh() {
         if (motor_ == nullptr) return reconnect();
         if (model_.prompt().kind != Prompt::Kind::none) return;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMostLines = 200;
 constexpr std::size_t kLongestInput = 60;
 
-/// ERR_STAT's bits that have stopped a motor, or will; the others only tell.
+/// ERR_STAT's bits that have stopped a motor, or will; the others are information only.
 bool is_error(const Field& field) {
     return field.name.ends_with("_ERR") && !field.name.starts_with("FRAME");
 }
@@ -34,7 +34,7 @@ std::size_t stepped(std::size_t at, int steps, std::size_t size) {
         std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(size) - 1));
 }
 
-/// A field's value by its name or number; nothing if it is neither, or too large.
+/// A field's value by its name or number; nullopt if it is neither, or too large.
 std::optional<std::uint32_t> field_value(const Field& field, const std::string& text) {
     for (const auto& one : field.values) {
         if (is_same(one.name, text)) return one.value;
@@ -53,7 +53,7 @@ UiModel::UiModel(registers::Model model) : model_(model) {
 
 Request UiModel::press(KeyPress key) {
     if (help_) {
-        help_ = key.key == Key::none;  // nobody pressed one
+        help_ = key.key == Key::none;  // Key::none: no key was pressed
         return {};
     }
     if (prompt_.kind != Prompt::Kind::none) return answer_prompt(key);
@@ -191,7 +191,7 @@ void UiModel::ask_write() {
     ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, choice_text(reg, model_)));
 }
 
-/// What acts on the whole motor wants a typed yes, and a motor that stands.
+/// Commands that act on the whole motor require a typed yes, and a motor at standstill.
 void UiModel::ask_service(Request::Kind kind) {
     const auto mode = raw_of(registers::MODE_REG);
     if (!mode) return tell("the motor's mode has not been read yet", true);
@@ -324,7 +324,7 @@ Request UiModel::finish_confirm() {
     return {};
 }
 
-/// Down from the selected row and round; names first, then titles.
+/// Searches down from the selected row and wraps around; names first, then titles.
 void UiModel::search(bool next) {
     if (last_search_.empty()) return;
     const std::string wanted = lower(last_search_);
@@ -359,7 +359,7 @@ void UiModel::tell(std::string note, bool bad) {
 }
 
 void UiModel::set_trouble(std::string trouble) {
-    // What was lost with the line stays on the screen.
+    // Values read before the line was lost stay on the screen.
     if (trouble.empty() && !trouble_.empty() && !bad_) tell("the motor answers again");
     trouble_ = std::move(trouble);
 }

@@ -1,5 +1,5 @@
-// Where things stand on the screen: parameters on the left and bits on the right, below them the samples,
-// then the line's bytes, one line for state above and one for notes and questions below.
+// Screen layout: parameters on the left and bits on the right, below them the samples, then the line's bytes;
+// one line for the state above and one for notes and prompts below.
 #include "terminal.h"
 
 #include <fmt/format.h>
@@ -84,11 +84,11 @@ class Screen {
     void put(int y, int x, int width, const std::string& text, attr_t attributes = A_NORMAL) {
         if (y < 0 || y >= rows_ || width <= 0) return;
         ::attron(static_cast<int>(attributes));
-        // Bytes are cut where they would be columns; only curves are not ASCII, and they fit.
+        // Texts are cut by bytes, as if each were a column; only curves are not ASCII, and they fit.
         ::mvaddnstr(y, x, text.c_str(), static_cast<int>(text.size()));
         ::attroff(static_cast<int>(attributes));
     }
-    /// Cut and filled to the width.
+    /// Cut and padded to the width.
     void cell(int y, int x, int width, const std::string& text, attr_t attributes = A_NORMAL) {
         if (width <= 0) return;
         put(y, x, width, fmt::format("{:<{}}", text.substr(0, static_cast<std::size_t>(width)), width),
@@ -99,7 +99,7 @@ class Screen {
     }
     attr_t bad() const { return colour(kPairBad, A_BOLD) | A_BOLD; }
 
-    /// The panel's heading; where its contents begin.
+    /// The panel's heading; returns the first row of its contents.
     Box heading(Panel panel, Box box, const std::string& text) {
         const bool active = model_.panel() == panel;
         std::string line = (active ? "[" : " ") + text + (active ? "]" : " ");
@@ -255,7 +255,7 @@ class Screen {
             cell(box.top + 2 + static_cast<int>(i - first), box.left, box.columns, lines[i]);
     }
 
-    /// As many lines as it needs, up from `last`: what to do stands at a message's end.
+    /// As many lines as needed, upwards from `last`: a message ends with what to do.
     void draw_note(int last) {
         const auto lines = wrapped(model_.note(), static_cast<std::size_t>(columns_ - 1),
                                    static_cast<std::size_t>(rows_ / 2));
@@ -269,7 +269,7 @@ class Screen {
         ::curs_set(prompt.kind == Prompt::Kind::none ? 0 : 1);
         draw_note(prompt.kind == Prompt::Kind::none ? y : y - 1);
         if (prompt.kind != Prompt::Kind::none) {
-            // The end of a long label and text is where a user types.
+            // The user types at the end of a long label and text.
             const std::string text = prompt.label + prompt.text;
             const auto width = static_cast<std::size_t>(columns_ - 1);
             const std::string shown = text.size() > width ? text.substr(text.size() - width) : text;

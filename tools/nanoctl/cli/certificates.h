@@ -8,9 +8,9 @@
 
 namespace nplc::nanoctl::cli {
 
-/// The active table's in a gateway that takes certificates.
+/// The certificate of the active table, for a gateway that supports certificates.
 struct KeptProof {
-    bool is_taken = false;  ///< the gateway takes certificates
+    bool is_taken = false;  ///< the gateway supports certificates
     std::optional<digest::Digest> digest;
 };
 KeptProof read_proof(GatewayClient& gateway);

@@ -33,8 +33,8 @@ std::uint64_t steps_mask(Session& session, const std::vector<std::string>& texts
     for (const std::string& text : texts) {
         const auto step = session.right_names().find_step(text);
         if (!step)
-            throw UserError(
-                fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym", text));
+            throw UserError(fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym{}",
+                                        text, session.right_names().guess(text, true)));
         mask |= session.right_names().with_copies(*step);
     }
     return mask;
@@ -67,7 +67,7 @@ struct Force {
         mask |= 1U << index;
         levels = level ? levels | 1U << index : levels & ~(1U << index);
     }
-    /// With what was forced before.
+    /// Includes what was forced before.
     std::uint32_t over(std::uint32_t before) const {
         return (before & ~mask & ~(mask << mask_at)) | levels | mask << mask_at;
     }
@@ -89,8 +89,8 @@ void parse_force(Session& session, const std::string& text, Force& in, Force& ou
     if ((!input && !output) || (level != "0" && level != "1"))
         throw UserError(
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
-                        "=0 or =1",
-                        text));
+                        "=0 or =1{}",
+                        text, input || output ? "" : session.right_names().guess(name, false)));
     if (input ? (in.mask >> *input & 1U) != 0 : (out.mask >> *output & 1U) != 0)
         throw UserError(fmt::format("'{}': {} is named twice; name it once", text, name));
     if (input)
@@ -121,7 +121,7 @@ void tell_forces(Session& session) {
                  {{"forced", forced}, {"left_ms", left}, {"outputs_kept_safe", kept_safe}});
 }
 
-/// Forces end by themselves unless renewed.
+/// Forces time out unless renewed.
 void keep_forces(Session& session, double seconds) {
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(seconds * 1e6)};
@@ -157,7 +157,7 @@ bool is_of_drop(const LogEntry& entry) {
     return static_cast<gw::Event>(entry.event) == gw::Event::set_points_dropped;
 }
 
-/// By whom, and the values with what they were.
+/// The cause of each change, and the values with their old ones.
 std::string set_point_text(const LogEntry& entry, const KnownChanges& known) {
     const std::string by(gw::name_of(static_cast<gw::Origin>(entry.detail >> 8)));
     const bool of_recipe = static_cast<gw::Event>(entry.event) != gw::Event::set_points_changed;
@@ -168,7 +168,7 @@ std::string set_point_text(const LogEntry& entry, const KnownChanges& known) {
     return changes.empty() ? text : text + ": " + changes;
 }
 
-/// Bits of another table's set-points have no names any more.
+/// The names of another table's set-points are unknown.
 std::string dropped_text(const LogEntry& entry, const KnownChanges& known) {
     return entry.number >= known.record_since ? set_points::names_of(known.record, entry.detail)
                                               : fmt::format("{}", std::popcount(entry.detail));

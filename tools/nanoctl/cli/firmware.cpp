@@ -60,7 +60,7 @@ void show_firmware(Session& session, const FirmwareStatus& status) {
     throw Refused(result, gw::FIRMWARE_STATE, 0, what);
 }
 
-/// Whether it is taken is seen before half a minute of sending.
+/// Checks the file before sending it, which takes half a minute.
 FirmwareLink link_for(const FirmwareStatus& status, const std::vector<FirmwareLink>& links,
                       const std::string& file) {
     if (links.empty())
@@ -78,7 +78,7 @@ FirmwareLink link_for(const FirmwareStatus& status, const std::vector<FirmwareLi
     return link;
 }
 
-/// After a reset that may not be answered: nothing without an answer now.
+/// After a reset, while the gateway may not answer: nullopt without an answer.
 std::optional<FirmwareStatus> look_at_firmware(GatewayClient& gateway) {
     try {
         return firmware_status(gateway);
@@ -109,7 +109,7 @@ void restart_firmware(GatewayClient& gateway) {
         fmt::format("{} did not run healthily in {} starts; {} runs again", version, tries, runs));
 }
 
-/// Until the image of `slot` is confirmed.
+/// Waits until the image of `slot` is confirmed.
 FirmwareStatus wait_for_trial(Session& session, unsigned slot, const std::string& version) {
     GatewayClient& gateway = session.gateway();
     const base::Instant end = session.now() + kTrialWait;

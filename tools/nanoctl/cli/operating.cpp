@@ -22,7 +22,7 @@ void tell_operator(const Session& session, const std::string& text, const Operat
                         {"you", who.is_you}});
 }
 
-/// What was taken is held until a signal comes: it ends with the connection.
+/// The operator's lease ends with the connection: it is held until a signal comes.
 void keep(Session& session) {
     while (goes_on() && output_has_reader()) {
         session.pause(base::Milliseconds{1'000});

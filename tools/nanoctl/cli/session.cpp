@@ -21,11 +21,11 @@ using mactalk_client::LineError;
 
 namespace {
 
-/// A whole upload of another program is waited for.
+/// Long enough for another program's whole upload.
 constexpr base::Milliseconds kTurnWait{60'000};
 constexpr base::Milliseconds kBetweenTries{20};
 
-/// A socket whose program closes the connection, or has no room at the moment, is connected again.
+/// Reconnects a socket that the gateway closed, or that has no free connection at the moment.
 std::unique_ptr<ByteClient> open_for_stop(const Common& common) {
     constexpr auto kHolding = ByteClient::Holding::at_once;
     if (!host::Endpoint(common.port).is_socket()) return command_line::open_port(common, kHolding);
@@ -47,7 +47,7 @@ std::unique_ptr<ByteClient> open_for_stop(const Common& common) {
     }
 }
 
-/// Who stops neither waits nor needs a password.
+/// Stop commands neither wait nor need a password.
 std::unique_ptr<ByteClient> open(const Common& common, ByteClient::Holding holding) {
     if (holding == ByteClient::Holding::at_once) return open_for_stop(common);
     return command_line::open_with_password(common, static_cast<std::uint8_t>(common.address), holding);
@@ -123,7 +123,7 @@ bool Session::wait_until_held(base::Milliseconds patience) {
 }
 
 void stop_work(Common& common, const std::function<void(Session&)>& what) {
-    constexpr unsigned kMostPatience = 500;  // what is lost is sent again
+    constexpr unsigned kMostPatience = 500;  // lost requests are repeated
     common.patience_ms = std::min(common.patience_ms, kMostPatience);
     command_line::guard(common, [&] {
         std::optional<Session> session;

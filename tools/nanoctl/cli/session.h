@@ -21,24 +21,25 @@ struct Common : command_line::Common {
     std::string symbols;
 };
 
-/// A gateway, and how results are told.
+/// A gateway, and how results are printed.
 class Session {
   public:
-    /// A gateway that has answered.
+    /// Throws unless the gateway answers.
     explicit Session(const Common& common);
-    /// Nothing is asked. `holding`: of a serial line.
+    /// Without a request to it. `holding`: of a serial line.
     Session(const Common& common, host::ByteClient::Holding holding);
 
     GatewayClient& gateway() { return gateway_; }
-    /// Those of --sym; numbers, and a note on standard error, if it cannot be read or is another table's.
+    /// The names of --sym; numbers, and a note on standard error, if it cannot be read or belongs to another
+    /// table.
     const Names& names();
-    /// Throws UserError where names() makes a note.
+    /// Throws UserError where names() prints a note.
     const Names& right_names();
     bool json() const { return common_.json; }
-    /// As named by --sym; empty without.
+    /// The file of --sym; empty without.
     const std::string& symbols() const { return common_.symbols; }
     Status status() { return Status(gateway_.read_block(gw::STATUS)); }
-    /// A serial line is another program's meanwhile, if it holds it in turns too.
+    /// Releases a serial line for the time, if another program shares it in turns.
     void pause(base::Microseconds time);
     base::Instant now() { return wire_->now(); }
 
@@ -62,8 +63,8 @@ class Session {
     std::optional<Names> names_;
 };
 
-/// Does the work of a stop: nothing is asked or looked at before, and whatever goes wrong says that the
-/// machine may still be running.
+/// Executes a stop command: without any check before it, and every error says that the machine may still be
+/// running.
 void stop_work(Common& common, const std::function<void(Session&)>& what);
 
 /// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.

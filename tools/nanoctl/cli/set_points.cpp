@@ -74,7 +74,10 @@ NewValue parse_value(const std::string& text, const set_points::Record& record) 
     if (point == nullptr) {
         std::string names;
         for (const set_points::SetPoint& one : record.values) names += (names.empty() ? "" : ", ") + one.name;
-        throw UserError(fmt::format("the table has no set-point '{}'; it has {}", name, names));
+        throw UserError(
+            fmt::format("the table has no set-point '{}'; it has {} (one that no step uses is left "
+                        "out)",
+                        name, names));
     }
     const set_points::Reading value = set_points::read_value(*point, text.substr(equals + 1));
     if (!value.error.empty()) throw UserError(fmt::format("{}; nothing was changed", value.error));
@@ -108,7 +111,7 @@ Recipe recipe_named(const std::vector<Recipe>& recipes, const std::string& name)
     return *recipe;
 }
 
-/// `instead`: what becomes of the others.
+/// `instead`: what happens to the other set-points.
 std::string lack_text(const Recipe& recipe, const set_points::Record& record, std::string_view instead) {
     const std::string names = set_points::missing_values(recipe, record);
     return names.empty() ? "" : fmt::format("  (none for {}: {})", names, instead);
@@ -205,7 +208,7 @@ void store_all(Session& session, const KeptSetPoints& kept, const std::string& f
     }
 }
 
-/// All of the file is looked at before the first is stored.
+/// The whole file is checked before the first value is stored.
 void import_from(Session& session, const std::string& file) {
     const std::string text = command_line::read_text(file);
     const KeptSetPoints kept = read_set_points(session.gateway());

@@ -110,7 +110,7 @@ struct SetOptions {
     bool keep = false;
 };
 
-/// All are looked at before the first is written.
+/// All are checked before the first is written.
 void set(Session& session, const SetOptions& options) {
     const auto& [texts, keep] = options;
     std::vector<Assignment> assignments;

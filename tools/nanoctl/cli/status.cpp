@@ -72,7 +72,7 @@ std::string table_text(std::uint32_t bytes, std::uint32_t crc) {
     return bytes == 0 ? "none" : fmt::format("{}, CRC {:08X}h", terms_text(bytes), crc);
 }
 
-/// Length and CRC of a stored table count its certificate too; of the active one they do not.
+/// A stored table's length and CRC include its certificate; those of the active one do not.
 std::string stored_text(const Block& about, const Status& status) {
     const bool same = about[gw::STORED_BYTES - gw::IDENTITY] != 0 && !status.has(gw::kStoredDiffers);
     const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
@@ -95,7 +95,7 @@ std::string echo_text(std::uint32_t us) {
     return text;
 }
 
-/// What to mend first in front.
+/// The most urgent cause first.
 std::string why_text(const Why& why) {
     std::string text;
     for (const causes::Finding& one : why.findings) {
@@ -189,7 +189,7 @@ struct WatchOptions {
     bool all = false;
 };
 
-/// A line at every change of what matters, with the gateway's time.
+/// A line at every relevant change, with the gateway's time.
 void watch(Session& session, const WatchOptions& options) {
     session.right_names();
     std::string last;

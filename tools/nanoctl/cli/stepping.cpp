@@ -37,11 +37,11 @@ struct StepOptions {
     unsigned seconds = 10;
 };
 
-/// A step that is left pending would hold the sequence some time later, unexpectedly.
+/// A pending step must be cancelled: it would hold the sequence later, unexpectedly.
 std::string cancel(Session& session) {
     try {
         stop_machine(session.gateway(), gw::Command::hold);
-    } catch (const Refused&) {  // it was stopped meanwhile
+    } catch (const Refused&) {  // the sequence was stopped meanwhile
     }
     const Status status = session.status();
     return fmt::format("the sequence is {} in step {}", name_of(status.run_state),

@@ -27,7 +27,7 @@ struct UploadOptions {
     bool run = false;
 };
 
-/// How far a transfer is, as long as this lives.
+/// Shows the progress of a transfer during its lifetime.
 class ProgressLine {
   public:
     ProgressLine(const char* verb, Session& session)
@@ -70,7 +70,7 @@ void make_active(Session& session, const UploadOptions& options) {
     }
 }
 
-/// Only a gateway that knows what they are gets the bytes behind the end term.
+/// The bytes behind the end term are sent only to a gateway that supports them.
 void look_for_room(GatewayClient& gateway) {
     if (!read_proof(gateway).is_taken)
         throw Refused(
@@ -140,7 +140,7 @@ struct VerifyOptions {
     bool all_bytes = false;
 };
 
-/// Which table is active is known without its set-points too.
+/// The active table is known even if its set-points cannot be read.
 set_points::Record record_if_readable(const std::string& file, const std::string& symbols,
                                       std::span<const std::uint8_t> table) {
     try {

@@ -5,7 +5,7 @@
 
 namespace nplc::nanofleet::cli {
 
-/// Of --fleet; a mistake is a UserError.
+/// The file of --fleet; an error is a UserError.
 Fleet open_fleet(const Common& common);
 
 /// Group `name`, or all; an unknown one is a UserError.

@@ -68,7 +68,7 @@ Json document_of(const RollOut& roll_out, const Group& group) {
             {"gateways", list}};
 }
 
-/// What is not done, a line each.
+/// The gateways that are not done, a line each.
 std::string text_of(const RollOut& roll_out) {
     std::string text;
     for (const Outcome& outcome : roll_out.outcomes()) {

@@ -26,7 +26,7 @@ struct SignOptions {
     std::uint64_t counter = 0;
 };
 
-/// For who publishes with another program: the pieces lie beside the order, one file a message.
+/// For users who publish with another program: the pieces are written beside the order, one file a message.
 void sign(const Common& common, const SignOptions& options) {
     if (!orders::has_crypto()) throw UserError(std::string(orders::kNoCrypto));
     const orders::SecretKey secret = read_secret_file(options.key);

@@ -31,7 +31,7 @@ bool is_word(const Token& token) {
     return token.kind == TokenKind::identifier || token.kind == TokenKind::direct;
 }
 
-/// Asks the parser: the word under the cursor is taken out, and a token put in that is nothing.
+/// Queries the parser: replaces the word under the cursor by a token that is not valid anywhere.
 Context context_at(const Program& program, std::uint32_t offset) {
     Context context;
     std::vector<Token> tokens = program.tokens();
@@ -76,7 +76,7 @@ constexpr std::array kBlockEnds = {std::string_view("END_IF"), std::string_view(
                                    std::string_view("END_POWER_UP"), std::string_view("END_VAR"),
                                    std::string_view("END_PROGRAM")};
 
-/// What the parser tries only to say that it cannot stand there.
+/// Words that the parser accepts only to report that they are not allowed here.
 bool only_refused(const Expected& expected, std::string_view word) {
     const auto innermost = std::find_if(kBlockEnds.begin(), kBlockEnds.end(),
                                         [&](std::string_view end) { return has(expected, end); });

@@ -22,10 +22,10 @@ struct Proposal {
     };
     Kind kind = Kind::keyword;
     std::string label;
-    std::string insert;  ///< with $1 and $0 where the cursor goes, if `is_snippet`
+    std::string insert;  ///< with $1 and $0 as cursor positions, if `is_snippet`
     bool is_snippet = false;
     std::string detail;         ///< one line
-    std::string documentation;  ///< Markdown; long ones are worked out by document_proposal()
+    std::string documentation;  ///< Markdown; long ones are computed by document_proposal()
 };
 
 struct Proposals {
@@ -33,17 +33,17 @@ struct Proposals {
     std::vector<Proposal> list;
 };
 
-/// What may stand at a place, as the parser itself tries it there.
+/// The proposals for a place, taken from the alternatives that the parser tries there.
 Proposals complete(const Program& program, std::uint32_t offset);
 
-/// Markdown about a word of the language, from the reference; empty if it says nothing.
+/// Markdown about a word of the language, from the reference; empty if there is none.
 std::string documentation_of(std::string_view word);
 
-/// Signature help: a command's call, or what a register takes.
+/// Signature help: the call of a command, or the values of a register.
 struct Signature {
     std::string label;
     std::string documentation;
-    std::vector<std::string> parameters;  ///< parts of the label
+    std::vector<std::string> parameters;  ///< substrings of the label
     std::size_t active = 0;
 };
 std::vector<Signature> signatures_at(const Program& program, std::uint32_t offset);

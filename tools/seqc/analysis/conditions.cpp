@@ -25,7 +25,7 @@ class Judge {
     }
 
   private:
-    /// Every operand is looked at, so that every name is shown.
+    /// Evaluates every operand, so that every name is shown.
     bool value_of(const Expression& expression, std::vector<ConditionNow::Part>& parts) {
         std::size_t true_ones = 0;
         for (const Expression& operand : expression.operands)
@@ -46,7 +46,7 @@ class Judge {
             case Expression::Kind::rising:
             case Expression::Kind::falling:
                 signal(expression, expression.name.text, parts);
-                return false;  // when it comes, the step is left
+                return false;  // when it becomes true, the step is left
             default:
                 return signal(expression, program_.text(expression.span), parts);
         }
@@ -134,7 +134,7 @@ std::vector<ConditionNow> Conditions::of(std::string_view name, const Seen& seen
         if (term.symbols) list.push_back(judge.judge(term.symbols->condition));
     }
     std::sort(list.begin(), list.end(), [](const ConditionNow& a, const ConditionNow& b) {
-        return a.text.data() < b.text.data();  // all of one source
+        return a.text.data() < b.text.data();  // all from one source
     });
     for (const ast::OnCondition& on : program.tree().on_conditions) {
         const bool counts = on.only.empty() || names_step(program, on.only, name);

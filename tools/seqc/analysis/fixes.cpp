@@ -9,7 +9,7 @@
 namespace nplc::seqc::analysis {
 namespace {
 
-/// What stands between two marks; empty if they are not there.
+/// The text between two marks; empty if they are missing.
 std::string between(std::string_view text, std::string_view before, std::string_view after) {
     const std::size_t begin = text.find(before);
     if (begin == text.npos) return "";
@@ -66,7 +66,7 @@ class Fixer {
         }
     }
 
-    /// One END_IF of two that follow each other goes with it.
+    /// Also removes one of two consecutive END_IF.
     void else_if() {
         Fix fix{"Write ELSIF", {{d_.span, "ELSIF"}}, true};
         const Token* before = nullptr;
@@ -113,7 +113,7 @@ class Fixer {
         }
     }
 
-    /// Before END_PROGRAM, or at the end of the file.
+    /// Position before END_PROGRAM, or the end of the file.
     std::uint32_t end_of_program() const {
         for (const Token& token : program_.tokens()) {
             if (token.kind == TokenKind::identifier && same_name(token.text, "END_PROGRAM"))
@@ -152,7 +152,7 @@ class Fixer {
         }
         return nullptr;
     }
-    /// The line after the block's first word, or after the program's head.
+    /// The line after the block's first word, or after the program header.
     std::uint32_t place_in(std::string_view block) const {
         const Token* opening = opening_of(block);
         return opening != nullptr ? next_line(opening->span.offset) : after_head();

@@ -13,7 +13,7 @@ struct Fix {
     bool preferred = false;
 };
 
-/// What a diagnostic advises, as changes of the text.
+/// Text changes for a diagnostic's advice.
 std::vector<Fix> fixes_for(const Program& program, const Diagnostic& diagnostic);
 
 /// ALLOW CODE BECAUSE '...'; in the step around a finding of `seqc verify`.

@@ -14,8 +14,8 @@ struct Hover {
     std::string markdown;
 };
 
-/// A register with unit, range, note and what its constant becomes; a step with its terms, bytes and outgoing
-/// ways; a signal, a command, a word of the language.
+/// A register with unit, range, note and the raw value of its constant; a step with its terms, bytes and
+/// outgoing transitions; a signal, a command, a word of the language.
 std::optional<Hover> hover_at(const Program& program, std::uint32_t offset);
 
 struct Hint {
@@ -23,7 +23,7 @@ struct Hint {
     std::string text;
     std::string tooltip;
 };
-/// Raw values behind constants, terms of branches and steps, how many steps are used.
+/// Inlay hints: raw values of constants, terms of branches and steps, the number of used steps.
 std::vector<Hint> hints_in(const Program& program, Span range);
 
 }  // namespace nplc::seqc::analysis

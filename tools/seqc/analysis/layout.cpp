@@ -28,7 +28,7 @@ std::string problem_of(const Formatted& formatted, const Program& program) {
     return fmt::format("line {}: {}", program.lines().line_of(first.span.offset) + 1, first.message);
 }
 
-/// The same words in both texts: what stands between two of them, where it differs.
+/// Both texts have the same words: returns the differing text between words.
 std::vector<TextEdit> differences(std::string_view before, const std::vector<Span>& old_words,
                                   std::string_view after, const std::vector<Span>& new_words) {
     std::vector<TextEdit> edits;

@@ -10,15 +10,15 @@ namespace nplc::seqc::analysis {
 
 struct Layout {
     std::vector<TextEdit> edits;
-    std::string error;  ///< why there is no layout
+    std::string error;  ///< why it cannot be formatted
 };
 
-/// As `seqc fmt` lays it out; only what changes.
+/// The changes of `seqc fmt` for the whole program.
 Layout format_whole(const Program& program);
-/// Only the lines that `range` touches.
+/// The same for the lines in `range` only.
 Layout format_range(const Program& program, Span range);
-/// While typing: the depth of the line in which `offset` stands. `begins_line`: it was just begun; else it is
-/// changed only if a word of its own ends or parts a block.
+/// While typing: indentation of the line at `offset`. `begins_line`: the line was just begun; else it is
+/// changed only if it is a word that ends or divides a block.
 Layout format_typed(const Program& program, std::uint32_t offset, bool begins_line);
 
 }  // namespace nplc::seqc::analysis

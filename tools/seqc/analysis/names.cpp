@@ -15,7 +15,7 @@ bool is_signal(Kind kind) {
            kind == Kind::constant;
 }
 
-/// A name that stands in the way of a new one.
+/// An existing name that conflicts with a new one.
 const Definition* in_the_way(const Program& program, const Definition& renamed, std::string_view name) {
     for (const Definition& other : program.definitions()) {
         const bool same_space = other.kind == renamed.kind ||

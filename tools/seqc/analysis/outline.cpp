@@ -142,7 +142,7 @@ std::vector<Span> selections_at(const Program& program, std::uint32_t offset) {
     if (const Token* token = program.token_at(offset)) add(token->span);
     const auto& tokens = program.tokens();
     for (std::size_t i = 0; i < tokens.size();
-         ++i) {  // the statement: between two semicolons or words of blocks
+         ++i) {  // start of a statement: after a semicolon or a block's word
         const bool begins = i == 0 || tokens[i - 1].text == ";" || tokens[i - 1].text == ":" ||
                             same_name(tokens[i - 1].text, "THEN");
         if (!begins) continue;

@@ -26,10 +26,10 @@ struct Fold {
 };
 std::vector<Fold> folds_of(const Program& program);
 
-/// Around a place, from the word to the whole text.
+/// Selection ranges around a place, from the word to the whole text.
 std::vector<Span> selections_at(const Program& program, std::uint32_t offset);
 
-/// What a word is, for colours.
+/// Token types for syntax colouring.
 enum class TokenType : std::uint8_t {
     keyword,
     step,

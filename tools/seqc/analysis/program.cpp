@@ -12,7 +12,7 @@ namespace {
 
 using ast::Role;
 
-/// A file for INCLUDE without a program is read by itself.
+/// An include file without a program is parsed separately.
 ast::Program parsed(const Sources& sources, Report& report, bool& is_part) {
     Parser parser(sources, report);
     is_part = is_part || parser.at_part();
@@ -96,7 +96,7 @@ Span Program::declaration_of(Span name) const {
     return {name.offset, end - name.offset};
 }
 
-/// The smallest block around a name.
+/// The innermost block around a name.
 Span Program::block_of(Span name, std::string_view end_word) const {
     Span best = name;
     for (const ast::Block& block : tree_.blocks) {

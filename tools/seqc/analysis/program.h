@@ -14,7 +14,7 @@
 #include "syntax/ast.h"
 #include "syntax/token.h"
 
-/// Questions about one program as it stands at a moment. The answers depend on its text alone.
+/// Analysis of one version of a program. The results depend on its text only.
 namespace nplc::seqc::analysis {
 
 enum class Kind : std::uint8_t {
@@ -35,7 +35,7 @@ struct Definition {
     std::string_view name;
     Span name_span;
     Span whole;                ///< the block or declaration
-    std::string_view address;  ///< of an input, output or name of VAR_MOTOR, as written
+    std::string_view address;  ///< for an input, output or name of VAR_MOTOR, as written
 };
 
 struct Reference {
@@ -44,11 +44,11 @@ struct Reference {
     Span span;
     ast::Role role = ast::Role::other;
     std::size_t definition =
-        kNone;  ///< in definitions(); kNone: an address, a register of the map, an unknown name
+        kNone;  ///< index in definitions(); kNone: an address, a register of the map, an unknown name
     bool declares = false;
 };
 
-/// A number that the compiler turns into a register's raw value.
+/// A constant that the compiler converts to a register's raw value.
 struct Constant {
     Span span;
     const registers::Register* reg = nullptr;
@@ -59,27 +59,27 @@ struct Constant {
 class Program {
   public:
     explicit Program(std::string source);
-    /// The file that stands first is the one that is asked about: a program, or one that it includes.
+    /// The first file is the analysed one: a program, or a file that it includes.
     explicit Program(Sources sources);
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
-    /// Of the file that is asked about; that of files beside it lies behind its size().
+    /// Text of the analysed file; text of other files follows beyond its size().
     std::string_view source() const { return sources_.text_of(own_file()); }
     const Sources& sources() const { return sources_; }
     const SourceFile& own_file() const { return sources_.files().front(); }
-    /// The file is one for INCLUDE.
+    /// The file is an include file.
     bool is_part() const { return is_part_; }
     bool is_own(Span span) const { return span.offset <= size(); }
     ShownPlace place_of(std::uint32_t offset) const { return Places(sources_).of(offset); }
     const Lines& lines() const { return lines_; }
-    /// Without comments; the end is the last.
+    /// Without comments; the end token is the last.
     const std::vector<Token>& tokens() const { return tokens_; }
     const std::vector<Token>& comments() const { return comments_; }
     const ast::Program& tree() const { return tree_; }
-    /// What the grammar alone has against it.
+    /// Syntax errors.
     const std::vector<Diagnostic>& grammar() const { return grammar_; }
-    /// All that the compiler makes of it; worked out when it is first asked for.
+    /// The compiler's result; computed on first use.
     const Compilation& compiled() const;
 
     const std::vector<Definition>& definitions() const { return definitions_; }
@@ -89,12 +89,12 @@ class Program {
     const Symbols& symbols() const { return named_.symbols; }
     std::optional<LengthUnit> length_unit() const;
 
-    /// The name at or just before a place; null if there is none.
+    /// The name at or directly before a place; null if there is none.
     const Reference* reference_at(std::uint32_t offset) const;
     const Token* token_at(std::uint32_t offset) const;
     const Definition* definition_of(const Reference& reference) const;
     const Definition* find(Kind kind, std::string_view name) const;
-    /// By a name of VAR_MOTOR or of the register map.
+    /// Finds a register by a name of VAR_MOTOR or of the register map.
     const registers::Register* register_named(std::string_view name) const;
     /// The innermost STEP or POWER_UP around a place; null if there is none.
     const ast::Step* step_at(std::uint32_t offset) const;
@@ -120,14 +120,14 @@ class Program {
     bool is_part_ = false;
     Lines lines_;
     std::vector<Diagnostic> grammar_;
-    Report noise_;  ///< what the compiler reports itself
+    Report noise_;  ///< the compiler's own report, unused
     std::vector<Token> comments_;
     std::vector<Token> tokens_;
     ast::Program tree_;
-    Compilation named_;  ///< names alone
+    Compilation named_;  ///< result of name resolution only
     std::optional<Scope> scope_;
     std::vector<Definition> definitions_;
-    std::unordered_multimap<std::string, std::size_t> by_name_;  ///< upper case; in definitions_
+    std::unordered_multimap<std::string, std::size_t> by_name_;  ///< upper-case name to index in definitions_
     std::vector<Reference> references_;
     std::vector<Constant> constants_;
     mutable std::optional<Compilation> compiled_;

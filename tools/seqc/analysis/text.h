@@ -9,7 +9,7 @@
 
 namespace nplc::seqc::analysis {
 
-/// How a client counts the characters of a line.
+/// Unit in which a client counts characters of a line.
 enum class Encoding : std::uint8_t { utf8, utf16 };
 
 /// Line and character, both from 0.
@@ -29,7 +29,7 @@ struct TextEdit {
     std::string text;
 };
 
-/// Where the lines of a text begin, which must stay alive. Lines end with LF, CR LF or CR.
+/// Line starts of a text, which must stay valid. Lines end with LF, CR LF or CR.
 class Lines {
   public:
     explicit Lines(std::string_view text);
@@ -37,11 +37,11 @@ class Lines {
     std::size_t count() const { return starts_.size(); }
     Place place_of(std::uint32_t offset, Encoding encoding) const;
     Range range_of(Span span, Encoding encoding) const;
-    /// Beyond the end of a line or of the text: that end.
+    /// Limited to the end of the line and of the text.
     std::uint32_t offset_of(Place place, Encoding encoding) const;
     std::uint32_t line_of(std::uint32_t offset) const;
     std::uint32_t start_of(std::uint32_t line) const { return starts_[line]; }
-    /// Without its end.
+    /// Without its line end.
     std::string_view line(std::uint32_t number) const;
 
   private:
@@ -49,7 +49,7 @@ class Lines {
     std::vector<std::uint32_t> starts_;
 };
 
-/// Of a text that may be no UTF-8: what is none counts as one character a byte.
+/// Invalid UTF-8 counts as one character per byte.
 std::uint32_t characters_in(std::string_view text, Encoding encoding);
 
 }  // namespace nplc::seqc::analysis

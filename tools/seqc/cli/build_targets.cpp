@@ -29,7 +29,7 @@ std::optional<std::uint32_t> address_of(std::string_view text) {
     return value;
 }
 
-/// A pipe or a device takes the table and has no place beside it.
+/// The table is written to a pipe or a device, so no symbol file can be placed next to it.
 bool is_device(const std::string& path) {
     return whole_files::is_special(path) ||
            host::name_of(host::path_of(path).lexically_normal()).starts_with("/dev/");
@@ -59,7 +59,7 @@ std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
     return {};
 }
 
-/// Nobody asked for the symbols by name, so they must not replace what somebody else has written there.
+/// The symbol file was not named explicitly, so it must not replace a file that is not one.
 std::string foreign(const std::string& symbols) {
     std::error_code error;
     if (symbols.empty() || !fs::is_regular_file(host::path_of(symbols), error)) return {};

@@ -10,20 +10,20 @@
 
 namespace nplc::seqc::cli {
 
-/// A step that was left for another.
+/// A step transition.
 struct StepChange {
-    std::string time;  ///< in milliseconds, as it was printed
+    std::string time;  ///< in milliseconds, as printed
     std::string from;
     std::string to;
-    bool gets_in_pos = false;  ///< INPOS came in that step; of a course only
+    bool gets_in_pos = false;  ///< INPOS became 1 in that step; for courses only
 };
 using CourseSteps = std::vector<StepChange>;
 
 CourseSteps steps_of(const verify::Course& course, const verify::Names& names);
-/// From what nanoplc-sim run prints.
+/// Parses the output of nanoplc-sim run.
 CourseSteps steps_in_timeline(std::string_view printed);
 
-/// Where a rehearsal leaves its course, in words.
+/// Describes where a rehearsal deviates from its course.
 std::string where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsal);
 
 }  // namespace nplc::seqc::cli

@@ -15,7 +15,7 @@ void add_dap(arguments::App& app, int& exit_code) {
         "Exit codes: 0 after disconnect, 1 if the editor left without it.");
     command.callback([&exit_code] {
         std::ios::sync_with_stdio(false);
-        std::cin.tie(nullptr);  // another thread reads than writes
+        std::cin.tie(nullptr);  // reading and writing are in different threads
         exit_code = dap::run_adapter(std::cin, std::cout);
     });
 }

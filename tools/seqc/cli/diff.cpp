@@ -18,7 +18,7 @@ struct DiffArguments {
     bool json = false;
 };
 
-/// A program with errors is trouble here: 1 says "different".
+/// A program with errors returns the exit code for trouble, since 1 means "different".
 int diff(const DiffArguments& options) {
     const Input before = read_for_view({options.before, {}});
     const Input now = before.exit_code == kOk ? read_for_view({options.now, {}}) : Input();

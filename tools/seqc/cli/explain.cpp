@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <memory>
@@ -57,7 +58,7 @@ Json page_object(const Explanation& info) {
     return object;
 }
 
-/// A word of the language, from the reference.
+/// Explains a word of the language, from the reference.
 int explain_word(const std::string& word, const std::vector<Paragraph>& passages, bool json) {
     if (json) {
         Json document;
@@ -84,7 +85,7 @@ int number_of(std::string_view code) {
     return number;
 }
 
-/// "E010, E011 and E012" for E015; nothing for what looks like no code at all.
+/// "E010, E011 and E012" for E015; empty for a word that does not look like a code.
 std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all) {
     const int number = number_of(wanted);
     const std::string letter = upper(wanted.substr(0, 1));
@@ -98,9 +99,24 @@ std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all)
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
+/// "; did you mean WITHIN?", or where a word of scenarios stands.
+std::string nearest_word(std::string_view wanted) {
+    constexpr std::array<std::string_view, 21> kOfScenarios{
+        "at",    "every",   "when",   "once",  "follows", "appears", "disappears",
+        "pulse", "toggle",  "cancel", "motor", "expect",  "ordered", "rises",
+        "falls", "changes", "recipe", "seed",  "log",     "never",   "eventually"};
+    const auto is_wanted = [&](std::string_view word) { return same_name(word, wanted); };
+    if (std::any_of(kOfScenarios.begin(), kOfScenarios.end(), is_wanted))
+        return "; it is a word of scenarios, which host-sim/scenario/README.md explains";
+    const std::string guess = suggestion(wanted, reference_words());
+    return guess.empty() ? guess : "; " + guess;
+}
+
 int unknown(const ExplainArguments& options, const std::vector<Explanation>& all) {
-    const std::string problem = fmt::format("there is no code '{}'{} (seqc explain lists all)",
-                                            options.code.substr(0, 40), nearest_codes(options.code, all));
+    const std::string codes = nearest_codes(options.code, all);
+    const std::string problem =
+        fmt::format("there is no code '{}'{} (seqc explain lists all)", options.code.substr(0, 40),
+                    codes.empty() ? nearest_word(options.code) : codes);
     if (!options.json) return file_problem(problem);
     Json document;
     document["error"] = problem;
@@ -120,7 +136,7 @@ int list(const std::vector<Explanation>& all, bool json) {
     return print_or_write(text, {});
 }
 
-/// CLEAR_P_IST for 03H or 63H, as the manuals call it; other words as they are.
+/// CLEAR_P_IST for 03H or 63H, the manuals' notation; other words unchanged.
 std::string command_of(const std::string& word) {
     constexpr unsigned kCommandMode = 0x60;
     unsigned byte = 0;
@@ -138,7 +154,7 @@ int explain(const ExplainArguments& options) {
     const auto found = std::find_if(
         all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
     if (found == all.end()) {
-        constexpr std::string_view kMoving = "moving";  // the one word that is written small
+        constexpr std::string_view kMoving = "moving";  // the only lower-case word
         const std::string word =
             same_name(options.code, kMoving) ? std::string(kMoving) : command_of(upper(options.code));
         const std::vector<Paragraph> passages = passages_about(word);

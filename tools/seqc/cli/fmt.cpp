@@ -27,7 +27,7 @@ struct Program {
     std::string before;
     std::string after;
     bool is_standard_input = false;
-    int exit_code = kOk;  ///< not kOk: why was printed
+    int exit_code = kOk;  ///< not kOk: the reason was printed
 };
 
 bool is_standard_input(const std::string& file) {
@@ -60,7 +60,7 @@ Program read_and_format(const std::string& file) {
     return program;
 }
 
-/// A byte order mark or CR LF is no part of what was read, but of the file.
+/// Compared without byte order mark and CR LF, which belong to the file and not to the text.
 bool is_formatted(const Program& program) {
     if (program.before != program.after || program.is_standard_input) return program.before == program.after;
     return whole_files::read_file(program.name).text == program.after;
@@ -71,7 +71,7 @@ int rewrite(const Program& program) {
     return print_or_write(program.after, program.name);
 }
 
-/// What stands in comments must not upset a terminal.
+/// Comments must not send control characters to a terminal.
 int show(const std::string& text, const std::string& output) {
     const bool to_terminal = (output.empty() || output == "-") && host::is_terminal(stdout);
     return print_or_write(to_terminal ? host::printable_lines(text) : text, output);

@@ -25,10 +25,10 @@ std::string first_line(const std::string& text) {
 
 struct Rendering {
     std::string bytes;
-    std::string error;  ///< why there are none, in one line
+    std::string error;  ///< one-line error
 };
 
-/// What Graphviz makes of `text`. No shell is involved; nothing is left behind.
+/// Runs Graphviz on `text`. Uses no shell and leaves no files.
 Rendering render_dot(const std::string& text, const std::string& format) {
     host::Ran ran = host::run_program("dot", {"-Kneato", "-n2", "-Gdpi=200", "-T" + format}, text);
     if (ran.missing) {
@@ -53,7 +53,7 @@ bool is_format(const std::string& name) {
     return std::find(kFormats.begin(), kFormats.end(), name) != kFormats.end();
 }
 
-/// Said with --format, or by the output's name; "" if that says nothing known.
+/// Format by --format or the output's extension; "" if unknown.
 std::string format_of(const GraphArguments& options) {
     if (!options.format.empty()) return options.format;
     if (options.output.empty() || options.output == "-") return "svg";

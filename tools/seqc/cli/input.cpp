@@ -38,7 +38,7 @@ void compile_into(Input& input, const std::string& text) {
     input.program = std::move(compilation);
 }
 
-/// The bytes up to and including the end term; nothing if there is none.
+/// Number of bytes up to and including the end term; empty if there is none.
 std::size_t table_length(std::span<const std::uint8_t> bytes) {
     for (std::size_t at = 0; at + kTermBytes <= bytes.size(); at += kTermBytes) {
         if (sequencer::is_end(bytes.subspan(at).first<kTermBytes>())) return at + kTermBytes;
@@ -79,7 +79,7 @@ void read_table_into(Input& input, const std::string& text, bool is_whole) {
     input.table = std::move(bytes);
 }
 
-/// Symbols that are asked for by name must fit; those that happen to stand beside the table need not.
+/// Symbols named explicitly must fit; those found next to the table need not.
 void read_symbols_into(Input& input, const std::string& asked_for) {
     const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
     std::error_code ignored;

@@ -16,7 +16,7 @@ void add_lsp(arguments::App& app, int& exit_code) {
         "Exit codes: 0 after shutdown and exit, 1 if the editor left without them.");
     command.callback([stdio, &exit_code] {
         std::ios::sync_with_stdio(false);
-        std::cin.tie(nullptr);  // another thread reads than writes
+        std::cin.tie(nullptr);  // reading and writing are in different threads
         exit_code = lsp::run_server(std::cin, std::cout);
     });
 }

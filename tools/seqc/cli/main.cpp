@@ -20,7 +20,7 @@ void add_colour_option(nplc::arguments::App& app) {
     using nplc::seqc::cli::ColourChoice;
     const std::map<std::string, ColourChoice> choices = {
         {"auto", ColourChoice::automatic}, {"always", ColourChoice::always}, {"never", ColourChoice::never}};
-    app.fallthrough();  // it may stand behind the subcommand too
+    app.fallthrough();  // allowed after the subcommand too
     app.add_option_function(
            "--color",
            [choices](const std::string& text) { nplc::seqc::cli::colour_choice() = choices.at(text); },

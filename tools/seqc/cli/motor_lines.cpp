@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// Up to a comment or one of `ends`, neither of them in quotes.
+/// Text up to a comment or one of `ends`, outside of quotes.
 std::string_view up_to(std::string_view text, std::string_view ends) {
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -40,7 +40,7 @@ bool begins_with_word(std::string_view text, std::string_view word) {
            std::equal(word.begin(), word.end(), text.begin(), [&](char b, char a) { return same(a, b); });
 }
 
-/// A plant file is looked for from the scenario's folder, and the new scenario may lie in another.
+/// A plant file's path is relative to the scenario's folder, and the new scenario may be in another one.
 std::string with_whole_path(std::string_view action, const fs::path& folder) {
     const std::size_t open = action.find('"');
     const std::size_t close = action.rfind('"');

@@ -7,11 +7,11 @@ namespace nplc::seqc::cli {
 
 struct MotorLines {
     std::vector<std::string> lines{};
-    std::string error{};  ///< empty: there is none
+    std::string error{};  ///< empty: no error
 };
 
-/// What a scenario says of its motor at the beginning: plant, stored registers, stops, load, sensors. Of a
-/// plant file, as `macreg fit` writes it, the line that takes it.
+/// A scenario's initial settings of its motor: plant, stored registers, stops, load, sensors. For a plant
+/// file, as written by `macreg fit`, the line that loads it.
 MotorLines motor_lines_of(const std::string& file);
 
 }  // namespace nplc::seqc::cli

@@ -2,7 +2,7 @@
 
 #include "arguments/arguments.h"
 
-/// Each adds one subcommand, whose callback does its work and leaves the exit code.
+/// Each adds one subcommand, whose callback does the work and sets the exit code.
 namespace nplc::seqc::cli {
 
 void add_build(arguments::App& app, int& exit_code);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,7 +72,7 @@ int exit_code_of(const verify::Report& report) {
     return undecided ? kUndecided : kOk;
 }
 
-/// A wait of an hour has millions of scans: those that repeat the one before them are counted there.
+/// A wait of an hour has millions of scans: equal consecutive scans are counted instead.
 Json course_object(const verify::Course& course, const verify::Names& names) {
     Json scans = Json::array();
     for (const verify::PlayedScan& scan : course) {
@@ -162,7 +163,7 @@ std::string place_of_step(const Input& input, std::uint8_t step) {
                        before.size() - (before.rfind('\n') + 1) + 1);
 }
 
-/// Of a line that was counted over all files.
+/// For a line number counted over all files.
 std::string place_of_line(const Sources& sources, std::size_t line) {
     std::uint32_t offset = 0;
     for (const std::string& text = sources.text(); line > 1 && offset < text.size(); ++offset)
@@ -184,13 +185,13 @@ std::string assumption_text(const VerifyArguments& options, const Input& input,
     return text;
 }
 
-/// Of what is undecided, on demand: why the last course that was tried cannot be.
+/// For an undecided result, on request: why the last candidate course is impossible.
 std::string conflict_text(const verify::Result& result, const VerifyArguments& options) {
     if (!options.explains_undecided || result.conflict.empty()) return "";
     return fmt::format("  the last course: {}\n", result.conflict);
 }
 
-/// What a check found, where the step stands.
+/// The finding of a check, at the position of the step.
 std::string finding_text(const verify::Result& result, const VerifyArguments& options, const Input& input,
                          const verify::Names& names) {
     const bool is_fault = result.severity == verify::Severity::fault;
@@ -211,6 +212,39 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
     return text;
 }
 
+/// Findings of one check in a step and in the copies that the compiler made of it are one: that of the step.
+/// Null: this one is told with another.
+const verify::Result* told_for(const verify::Report& report, const verify::Result& result,
+                               const verify::Names& names, std::string& copies) {
+    if (!result.step) return &result;
+    const auto origin_of = [&](std::uint8_t step) { return names.copy_of[step].value_or(step); };
+    const verify::Result* first = nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_same = other.step && other.code == result.code && other.verdict == result.verdict &&
+                             other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (!is_same) continue;
+        const bool is_origin = *other.step == origin_of(*other.step);
+        if (first == nullptr || is_origin) first = &other;
+    }
+    if (first != &result) return nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_copy = &other != first && other.step && other.code == result.code &&
+                             other.verdict == result.verdict && other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (is_copy) copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other.step]);
+    }
+    return first;
+}
+
+std::string undecided_text(const verify::Report& report) {
+    std::set<std::string> open;
+    for (const verify::Result& result : report.results) {
+        if (!result.code.empty() && result.verdict == Verdict::undecided) open.insert(result.code);
+    }
+    return open.empty() ? "" : fmt::format(", {} undecided", open.size());
+}
+
 std::string text_of(const verify::Report& report, const Plays& plays, const VerifyArguments& options,
                     const Input& input, const verify::Names& names) {
     std::string text;
@@ -219,7 +253,10 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
         if (!result.code.empty()) {
             const bool holds = result.verdict == Verdict::proved;
             checks_that_hold += holds ? 1 : 0;
-            if (!holds) text += finding_text(result, options, input, names);
+            std::string copies;
+            if (holds || told_for(report, result, names, copies) == nullptr) continue;
+            text += finding_text(result, options, input, names);
+            if (!copies.empty()) text += fmt::format("  and in its copies: {}\n", copies);
             continue;
         }
         const char* shade = result.verdict == Verdict::proved ? "1;32" : "1;31";
@@ -232,13 +269,13 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
         if (const auto play = plays.find(result.name); play != plays.end())
             text += fmt::format("  {}\n", told(play->second));
     }
-    return text + fmt::format("{} of {} checks hold; {} states explored{}; assumed: {}\n", checks_that_hold,
-                              verify::checks().size(), report.states,
+    return text + fmt::format("{} of {} checks hold{}; {} states explored{}; assumed: {}\n", checks_that_hold,
+                              verify::checks().size(), undecided_text(report), report.states,
                               report.complete ? ", all there are" : ", not all",
                               assumption_text(options, input, report.assumptions));
 }
 
-/// What is read, and would be written over.
+/// Error if an output would overwrite an input.
 std::string clash(const VerifyArguments& options) {
     const std::vector<std::string> read = {options.table.file, options.properties, options.table.symbols,
                                            options.courses.plant};
@@ -259,7 +296,7 @@ std::string clash(const VerifyArguments& options) {
     return "";
 }
 
-/// What does not go together.
+/// Error for contradicting options.
 std::string contradiction(const VerifyArguments& options) {
     if (std::string wrong = clash(options); !wrong.empty()) return wrong;
     if (!options.courses.plant.empty() && options.courses.scenario.empty())

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kPlayer = "nanoplc-sim";
 
-/// The one beside this program, else the one on the path.
+/// Runs the player next to this program, else the one on the path.
 host::Ran run_player(const std::vector<std::string>& arguments, const std::string& scenario) {
     const std::string folder = host::own_folder();
     if (!folder.empty()) {
@@ -30,7 +30,7 @@ host::Ran run_player(const std::vector<std::string>& arguments, const std::strin
     return host::run_program(kPlayer, arguments, scenario);
 }
 
-/// Played before it is written; with the program of its own that holds the simulated gateway.
+/// Played before it is written, in a separate program with the simulated gateway.
 Play play_scenario(const InputFile& program, const std::string& file, const std::string& text,
                    const CourseSteps& steps) {
     std::vector<std::string> arguments = {"run", program.file, "--scenario", "/dev/stdin"};
@@ -46,13 +46,13 @@ Play play_scenario(const InputFile& program, const std::string& file, const std:
             fmt::format("nanoplc-sim refused it: {}", ran.errors.substr(0, ran.errors.find('\n')))};
 }
 
-/// A scenario, and what became of it.
+/// A scenario with the result of its rehearsal.
 struct Rehearsed {
     Play play;
     std::string text;
 };
 
-/// With inputs that change in a scan that leaves a step before it, and if that leads elsewhere, after it.
+/// With inputs that change before the scan that leaves a step and, if that leads elsewhere, after it.
 Rehearsed rehearsed(const verify::Result& result, const InputFile& program, const std::string& file,
                     const verify::Names& names, const std::vector<std::string>& plant) {
     const CourseSteps steps = steps_of(*result.course, names);
@@ -75,7 +75,7 @@ Rehearsed rehearsed(const verify::Result& result, const InputFile& program, cons
     return {std::move(play), std::move(text)};
 }
 
-/// What would be written over something that was read, or over another of them.
+/// Error if a file would overwrite an input or another output.
 std::string clash_in(const std::vector<whole_files::OutputFile>& files,
                      const std::vector<std::string>& read) {
     for (std::size_t i = 0; i < files.size(); ++i) {

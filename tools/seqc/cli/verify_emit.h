@@ -8,7 +8,8 @@
 
 namespace nplc::seqc::cli {
 
-/// `verify --emit`: the question of --assume any for a foreign checker, to a file or standard output.
+/// `verify --emit`: the question of --assume any in the input language of another checker, to a file or
+/// standard output.
 int emit_question(const std::string& language, const Input& input,
                   const std::vector<verify::Property>& properties,
                   const std::vector<verify::Assumption>& assumptions, const std::string& output);

@@ -18,14 +18,14 @@ using set_points::ValueKind;
 using verify::Result;
 using verify::Verdict;
 
-/// Counts that are tried one by one where the explorer leaves a verdict open, and how many of them may leave
-/// it open again.
+/// Number of single counts that are tried if the explorer leaves a verdict undecided, and how many of them
+/// may again be undecided.
 constexpr std::size_t kMostCounts = 1024;
 constexpr std::size_t kMostOpen = 16;
-/// Values whose ends are all combined.
+/// Number of values whose range limits are combined completely.
 constexpr std::size_t kMostCombined = 3;
 
-/// A preset for each set-point of a time or a count.
+/// One preset for each set-point of a time or a count.
 using Presets = std::vector<std::int32_t>;
 
 bool is_same(const Result& a, const Result& b) {
@@ -62,7 +62,8 @@ class AllValues {
   private:
     bool is_count(std::size_t i) const { return points_[i].kind == ValueKind::counter; }
 
-    /// Presets that no term has, those of counters above all that a counter can be; false if there are none.
+    /// Finds presets that no term has, for counters above every possible counter value; false if there are
+    /// none.
     bool find_marks() {
         std::set<std::int32_t> used;
         std::int32_t greatest = 0;
@@ -83,7 +84,7 @@ class AllValues {
             if (is_count(i) && next <= greatest) return false;
             marks.push_back(next--);
         }
-        // A counter is looked up by its value: its marks are as low as they can be.
+        // A counter is looked up by its value, so its marks are as low as possible.
         for (std::size_t i = 0; i < points_.size(); ++i) {
             if (!is_count(i)) continue;
             do ++greatest;
@@ -106,7 +107,7 @@ class AllValues {
         return options;
     }
 
-    /// Says with which values a course that was found in ranges breaks it.
+    /// Adds the values with which a course found with ranges breaks the property.
     void name_values(Result& result) const {
         if (result.verdict == Verdict::broken && !result.presets.empty())
             add_values(result, values_in(result, defaults_));
@@ -129,10 +130,11 @@ class AllValues {
         result.reason += fmt::format("{}with {}", result.reason.empty() ? "" : ", ", text);
     }
 
-    /// What breaks with these values (the table's own: null) and was not known to break with as simple ones.
+    /// Records what breaks with these values (null: the table's own) unless it is known to break with simpler
+    /// ones.
     void note_broken(const verify::Report& tried, const Presets* values) {
         for (const Result& result : tried.results) {
-            // A step that some values do not lead to may be there for others.
+            // A step that is unreachable with some values may be reachable with others.
             if (result.verdict != Verdict::broken || result.code == "V001") continue;
             Result found = result;
             if (values != nullptr) add_values(found, *values);
@@ -184,9 +186,12 @@ class AllValues {
             if (result.verdict != Verdict::proved) continue;
             result.verdict = Verdict::undecided;
             result.reason = fmt::format(
-                "it holds at the ends of the ranges; between them it is not decided, since a count's range "
-                "goes to {}",
+                "it holds at the ends of the ranges; a RANGE of a count that goes to {} is too large to be "
+                "decided between them: let it end sooner, as RANGE 1 .. 2000 does, or look at the defaults "
+                "alone "
+                "with --set-points default",
                 kMostPreset);
+            report_.complete = false;
         }
     }
 
@@ -198,7 +203,7 @@ class AllValues {
         return product;
     }
 
-    /// The combination of counts with this number; times are ranges.
+    /// The combination of counts with this number; times remain ranges.
     Presets combination(std::size_t number) const {
         Presets values = marks_;
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -210,7 +215,7 @@ class AllValues {
         return values;
     }
 
-    /// With single counts more can be decided than with all at once.
+    /// Single counts can decide more than all counts at once.
     void try_counts() {
         const std::size_t count = count_of_counts();
         std::vector<verify::Property> open = open_properties();
@@ -274,7 +279,7 @@ class AllValues {
     const verify::Names& names_;
     const std::vector<verify::Property>& properties_;
     verify::Options how_;
-    std::vector<SetPoint> points_;  ///< times and counts
+    std::vector<SetPoint> points_;  ///< of times and counts
     Presets defaults_;
     Presets marks_;
     verify::Report report_;

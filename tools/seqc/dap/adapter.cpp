@@ -172,7 +172,7 @@ void Adapter::begin(std::unique_ptr<Debuggee> debuggee, const Json& arguments) {
     debuggee_ = std::move(debuggee);
 }
 
-/// The step around a line: a breakpoint holds when its step is entered.
+/// Maps a line to its step: a breakpoint holds when its step is entered.
 Json Adapter::set_breakpoints(const Json& arguments) {
     debuggee();
     Json list = Json::array();
@@ -242,7 +242,7 @@ Json Adapter::configuration_done() {
     if (stop_on_entry_) return Json();
     try {
         go(Order::go_on);
-    } catch (const Problem& problem) {  // a gateway whose sequence is stopped can be looked at
+    } catch (const Problem& problem) {  // a gateway with a stopped sequence can still be inspected
         output(problem.what(), "important");
     }
     return Json();
@@ -278,7 +278,7 @@ void Adapter::look() {
     if (running_ || !debuggee_) return;
     try {
         const Look now = debuggee_->look();
-        if (now.state == "running") {  // by somebody else
+        if (now.state == "running") {  // by another client
             running_ = true;
             event("continued", {{"threadId", kThread}, {"allThreadsContinued", true}});
         }
@@ -330,7 +330,7 @@ void Adapter::tell_state(const Look& look) {
     event("seqc/state", std::move(body));
 }
 
-/// The sequence itself, not the debugger's hold on it.
+/// Runs or stops the sequence itself, independent of the debugger's hold.
 Json Adapter::switch_machine(bool run) {
     debuggee().switch_sequence(run);
     if (run && !running_) event("continued", {{"threadId", kThread}, {"allThreadsContinued", true}});
@@ -346,7 +346,7 @@ Json Adapter::disconnect() {
     if (!debuggee_) return Json();
     try {
         output(debuggee_->leave());
-    } catch (const Problem& problem) {  // it is gone: there is nothing to leave
+    } catch (const Problem& problem) {  // connection lost: nothing to clean up
         output(problem.what(), "important");
     }
     return Json();

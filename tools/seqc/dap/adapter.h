@@ -15,7 +15,7 @@ namespace nplc::dap {
 
 using Json = nlohmann::json;
 
-/// Where a step stands.
+/// Source position of a step.
 struct StepPlace {
     std::string file;
     std::uint32_t line = 0;  ///< from 1; 0: nowhere
@@ -26,7 +26,7 @@ inline std::string last_name(const std::string& path) {
     return path.substr(path.find_last_of("/\\") + 1);
 }
 
-/// The debug adapter without its streams and threads: requests in, responses and events out.
+/// The debug adapter without streams and threads: requests in, responses and events out.
 class Adapter {
   public:
     using Send = std::function<void(Json)>;
@@ -34,11 +34,12 @@ class Adapter {
     explicit Adapter(Send send) : send_(std::move(send)) {}
 
     void receive(const Json& message);
-    /// Something runs: tick() wants to be called.
+    /// The debuggee runs: tick() must be called.
     bool runs() const { return running_; }
     bool realtime() const { return realtime_; }
     void tick();
-    /// A machine that others may start too: look() wants to be called now and then while nothing runs here.
+    /// A machine that other clients may start too: look() must be called regularly while it does not run
+    /// here.
     bool looks_on() const { return debuggee_ && debuggee_->lives_by_itself() && !ended_; }
     void look();
     bool ended() const { return ended_; }
@@ -72,7 +73,7 @@ class Adapter {
     void apply_breakpoints();
     void stopped(const Stopped& why);
     void tell_remarks();
-    /// For views that follow the machine: `seqc/state`, at each change.
+    /// For views that follow the machine: event `seqc/state` at each change.
     void tell_state();
     void tell_state(const Look& look);
     void output(const std::string& text, const char* category = "console");

@@ -5,7 +5,7 @@
 #include "adapter.h"
 #include "spelling/text.h"
 
-/// What the adapter shows of a machine, and lets be set.
+/// Variables that the adapter shows and sets.
 namespace nplc::dap {
 namespace {
 
@@ -160,7 +160,7 @@ Json Adapter::set_variable(const Json& arguments) {
     return {{"value", value}};
 }
 
-/// A name; in the console `Name := value`, `run` and `stop` too.
+/// Evaluates a name; in the console also `Name := value`, `run` and `stop`.
 Json Adapter::evaluate(const Json& arguments) {
     const std::string expression = arguments.value("expression", "");
     if (arguments.value("context", "") == "repl") {

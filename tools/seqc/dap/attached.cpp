@@ -15,10 +15,10 @@ namespace {
 using namespace nanoctl;
 using host::ByteClient;
 
-/// A person looks on: a gateway on a busy machine is asked for three seconds before it counts as gone.
+/// For an interactive user: a gateway on a busy machine gets three seconds before it counts as lost.
 constexpr unsigned kAttempts = 20;
 
-/// A gateway's line, held in turns with other programs.
+/// The line to a gateway, shared in turns with other programs.
 std::unique_ptr<ByteClient> open_line(const Attach& options) {
     auto opened = ByteClient::open(options.endpoint, options.baud, ByteClient::Holding::in_turns);
     if (!opened.client) throw Problem(opened.error);
@@ -64,7 +64,7 @@ class Attached final : public Debuggee {
     }
     void stop_on_error(bool yes) override { stops_on_error_ = yes; }
 
-    /// The gateway itself refuses what is not safe, and says why.
+    /// The gateway itself refuses unsafe commands, with the reason.
     void start(Order order) override {
         asked([&] {
             const Status now = status();
@@ -80,7 +80,7 @@ class Attached final : public Debuggee {
                                                          : gw::Command::scan);
         });
         stepping_ = order != Order::go_on;
-        error_seen_ = true;  // one that is there already
+        error_seen_ = true;  // ignores an error that is already present
     }
 
     Stopped tick() override {
@@ -118,7 +118,7 @@ class Attached final : public Debuggee {
 
     bool lives_by_itself() const override { return true; }
 
-    /// As `nanoctl run` and `nanoctl stop`; the latter confirmed, or told that it may still be running.
+    /// As `nanoctl run` and `nanoctl stop`; the stop is confirmed, or reported as possibly still running.
     void switch_sequence(bool run) override {
         asked([&] {
             if (run) {
@@ -167,7 +167,7 @@ class Attached final : public Debuggee {
     }
 
   private:
-    /// What a client of a gateway throws, as Problem.
+    /// Converts the exceptions of the gateway client to Problem.
     template <class Ask>
     auto asked(const Ask& ask) -> decltype(ask()) {
         try {
@@ -184,7 +184,7 @@ class Attached final : public Debuggee {
                                                   << 32U;
     }
 
-    /// Names of another program would lie.
+    /// Refuses the names of another program.
     void hold_against(const seqc::Compilation& program) {
         const Block about = gateway_.read_block(gw::IDENTITY);
         const std::uint32_t crc = base::crc32(program.table);

@@ -11,14 +11,14 @@
 
 namespace nplc::dap {
 
-/// What a request cannot do, in a sentence for the person.
+/// Error of a request, as a sentence for the user.
 struct Problem : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A machine as it is seen at a moment.
+/// A snapshot of a machine.
 struct Look {
-    std::string time;  ///< "1.250 s"; of a gateway since it started
+    std::string time;  ///< "1.250 s"; for a gateway since its start
     std::uint8_t step = 0;
     std::uint16_t timer = 0;
     std::uint16_t counter = 0;
@@ -45,7 +45,7 @@ struct Stopped {
 
 enum class Order : std::uint8_t { go_on, next_step, next_scan };
 
-/// What is debugged: a rehearsal or a gateway. Everything throws Problem.
+/// The debugged machine: a rehearsal or a gateway. All functions may throw Problem.
 class Debuggee {
   public:
     virtual ~Debuggee() = default;
@@ -59,24 +59,24 @@ class Debuggee {
     virtual void stop_on_error(bool /*yes*/) {}
     virtual void stop_on_failure(bool /*yes*/) {}
     virtual void start(Order order) = 0;
-    /// While it runs: goes on for a moment, or looks; why it has stopped, if it has.
+    /// While it runs: continues for a short time, or polls; returns why it has stopped, if it has.
     virtual Stopped tick() = 0;
-    /// Why it has stopped then; StopReason::none: it stops a little later.
+    /// Returns why it has stopped; StopReason::none: it stops a little later.
     virtual Stopped pause() = 0;
-    /// A machine that others operate too, not a rehearsal.
+    /// A machine that other clients operate too, not a rehearsal.
     virtual bool lives_by_itself() const { return false; }
     /// Starts a stopped sequence, or stops it: a machine's own run and stop.
     virtual void switch_sequence(bool run) = 0;
     virtual std::vector<Variable> registers() = 0;
     virtual void set_input(unsigned index, bool level) = 0;
     virtual void set_output(unsigned index, bool level) = 0;
-    /// `text` with its unit; the value as it stands then.
+    /// Sets `text` with its unit; returns the resulting value.
     virtual std::string set_register(const std::string& name, const std::string& text) = 0;
-    /// Lines for the console since the last call.
+    /// Console output since the last call.
     virtual std::vector<std::string> take_remarks() = 0;
-    /// Leaves it as a person would want to find it; a last sentence.
+    /// Disconnects and leaves the machine in a usable state; returns a final message.
     virtual std::string leave() = 0;
-    /// The outcome is a failure, for the exit code.
+    /// Whether the result is a failure, for the exit code.
     virtual bool failed() const { return false; }
 
   protected:
@@ -88,7 +88,7 @@ struct Rehearse {
     std::string scenario;
     std::string motor;
     bool realtime = false;
-    double seconds = 0;  ///< at the most, of virtual time; 0: the scenario's end, else 60
+    double seconds = 0;  ///< limit of virtual time; 0: the scenario's end, else 60
 };
 std::unique_ptr<Debuggee> rehearse(const Rehearse& options);
 
@@ -96,7 +96,7 @@ struct Attach {
     std::string program;
     std::string endpoint;
     std::uint32_t baud = 19'200;
-    std::optional<std::uint8_t> address;  ///< the gateway's usual one without it
+    std::optional<std::uint8_t> address;  ///< empty: the gateway's default
 };
 std::unique_ptr<Debuggee> attach(const Attach& options);
 

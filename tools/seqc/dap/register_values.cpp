@@ -12,7 +12,7 @@
 namespace nplc::dap {
 namespace {
 
-/// How many raw steps one unit is; the unit of the program's SCALE is a part of a revolution.
+/// Raw steps per unit; the unit of the program's SCALE is a fraction of a revolution.
 std::optional<double> steps_in(const seqc::Symbols& symbols, const registers::Register& reg,
                                std::string unit) {
     double per_revolution = 1;

@@ -30,7 +30,7 @@ using rehearsal::Rehearsal;
 using rehearsal::Stop;
 
 constexpr std::uint64_t kSecond = 1'000'000;
-/// Of virtual time between two looks for messages.
+/// Virtual time between two polls for messages.
 constexpr std::uint64_t kSlice = 50'000;
 constexpr std::uint64_t kRealtimeSlice = 20'000;
 constexpr std::uint64_t kLongest = 60 * kSecond;

@@ -14,9 +14,9 @@ namespace {
 
 using Mailbox = rpc::Queue<rpc::Incoming>;
 
-/// How long to wait for a message while something runs.
+/// Timeout for a message while the debuggee runs.
 std::optional<std::chrono::milliseconds> patience_of(const Adapter& adapter) {
-    constexpr std::chrono::milliseconds kPace{20};  // of time in a rehearsal in real time
+    constexpr std::chrono::milliseconds kPace{20};  // step of a rehearsal in real time
     constexpr std::chrono::milliseconds kGlance{200};
     if (!adapter.runs()) return adapter.looks_on() ? std::optional(kGlance) : std::nullopt;
     return adapter.realtime() ? kPace : std::chrono::milliseconds{0};
@@ -51,7 +51,7 @@ int run_adapter(std::istream& in, std::ostream& out) {
     if (left && !adapter.ended())
         adapter.receive({{"type", "request"}, {"seq", 0}, {"command", "disconnect"}});
     out.flush();
-    std::_Exit(left ? 1 : 0);  // the reader may wait for input for ever
+    std::_Exit(left ? 1 : 0);  // the reader thread may be blocked forever
 }
 
 }  // namespace nplc::dap

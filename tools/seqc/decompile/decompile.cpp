@@ -21,7 +21,7 @@ using registers::Model;
 constexpr std::size_t kMostDrafts = 12;
 constexpr std::string_view kNotForDrive = "E044";
 
-/// Nothing that a file may be called can end the comment it stands in.
+/// Prevents a file name from ending the comment that contains it.
 std::string printable(const std::string& name) {
     std::string text;
     for (char c : name) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
@@ -38,7 +38,7 @@ class Decompiler {
           drive_(choose_drive()),
           drafter_(layout_, motor_) {}
 
-    /// With its set-points, or without them where they would not come out as they were.
+    /// With set-points, or without them if they could not be reproduced.
     Decompilation run() {
         keeps_set_points_ = has_set_points();
         if (keeps_set_points_) {
@@ -106,7 +106,8 @@ class Decompiler {
                std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
     }
 
-    /// A program that names a drive is refused for what the drive cannot do; the table may hold that.
+    /// The drive is dropped if the program with it would be refused for orders that the drive cannot do,
+    /// although the table has them.
     bool drops_drive() {
         if (drive_ == nullptr) return false;
         const auto& all = compilation_.diagnostics;
@@ -125,7 +126,7 @@ class Decompiler {
         return result_;
     }
 
-    /// What the compiler refused, or made other bytes of, is written in a plainer way next time.
+    /// Parts that the compiler refused or translated to other bytes are written in a simpler form next time.
     void learn(Exclusions& exclusions) const {
         if (compilation_.ok) return learn_from_bytes(exclusions);
         for (const Diagnostic& d : compilation_.diagnostics) {
@@ -253,7 +254,7 @@ class Decompiler {
     Decompilation result_;
 };
 
-/// Up to and with the end term; 0: there is none.
+/// Length up to and including the end term; 0: there is none.
 std::size_t length_of(std::span<const std::uint8_t> bytes) {
     for (std::size_t at = 0; at + sequencer::kTermBytes <= bytes.size(); at += sequencer::kTermBytes) {
         if (sequencer::is_end(bytes.subspan(at).first<sequencer::kTermBytes>()))

@@ -17,7 +17,7 @@ bool switches(const TermBytes& term) {
     return !sequencer::is_flex(term) && (term[3] & 0x3F) < sequencer::kLastStep;
 }
 
-/// What all of the actions end with.
+/// The common end of all of the actions.
 Action common_tail(const std::vector<const Action*>& actions) {
     Action tail = *actions.front();
     tail.next.reset();
@@ -52,7 +52,8 @@ Drafter::Drafter(const Layout& layout, registers::Model motor) : layout_(layout)
     for (const Part& part : layout.steps) groups_.push_back(groups_of(part.terms, motor));
 }
 
-/// OUT of a step: what most terms that enter it write; if none does, what it writes itself in all terms.
+/// OUT of a step: the outputs written by most terms that enter it; if there are none, those that all its own
+/// terms write.
 std::vector<std::uint8_t> Drafter::voted_outputs() const {
     constexpr std::size_t kSteps = 64;
     std::array<std::array<std::size_t, 16>, kSteps> votes{};
@@ -83,7 +84,7 @@ std::vector<std::uint8_t> Drafter::voted_outputs() const {
     return outputs;
 }
 
-/// What most steps do on ERROR. Step 0 does not count: POWER_UP writes its values there as well.
+/// The most common action on ERROR. Step 0 is not counted: POWER_UP writes its values there as well.
 std::optional<Action> Drafter::voted_fault(const Surroundings& around) const {
     std::vector<std::pair<const Action*, std::ptrdiff_t>> votes;
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
@@ -144,7 +145,7 @@ void Drafter::find_shapes(const Exclusions& exclusions, Draft& draft) {
         }
         if (!exclusions.shape.test(part.number)) draft.shapes[i] = shape_of(i, draft.around);
     }
-    // A step with the number 0 writes its OUT by itself, so it can have none when it is TERMs.
+    // A step with the number 0 writes its own OUT, so it can have none if it consists of TERMs.
     const bool must_be_silent =
         zero < layout_.steps.size() && !draft.power_up && !draft.shapes[zero] && draft.around.outputs[0] != 0;
     if (!must_be_silent) return;
@@ -158,7 +159,7 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
     std::vector<const Action*> ways;
     if (draft.power_up && draft.power_up->action.next == step)
         ways.push_back(draft.around.fault ? &draft.power_up->commands : &draft.power_up->action);
-    // A TERM says all that it does.
+    // A TERM states all of its effects.
     const auto add_terms = [&](const Terms& terms, std::size_t first) {
         for (std::size_t i = first; i < terms.size(); ++i) {
             if (switches(terms[i]) && (terms[i][3] & 0x3F) == step) ways.push_back(&kNoAction);
@@ -180,8 +181,8 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
     return ways;
 }
 
-/// ENTRY: what all ways into a step end with; of a single way only the move, since the step is about it. That
-/// of the fault step is what ON ERROR does.
+/// ENTRY: the common end of all transitions into a step; for a single transition only the move, since the
+/// step is about it. ENTRY of the fault step is the action of ON ERROR.
 void Drafter::find_entries(const Exclusions& exclusions, Draft& draft) const {
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         const std::uint8_t step = layout_.steps[i].number;
@@ -200,7 +201,7 @@ void Drafter::find_entries(const Exclusions& exclusions, Draft& draft) const {
     }
 }
 
-/// Without ON ERROR it makes no difference what POWER_UP writes as a value; what ENTRY writes is none.
+/// Without ON ERROR, POWER_UP's writes need not be values; those of ENTRY are not.
 void Drafter::take_entry_from_values(Draft& draft) const {
     if (!draft.power_up || draft.around.fault) return;
     PowerUp& power_up = *draft.power_up;
@@ -208,7 +209,7 @@ void Drafter::take_entry_from_values(Draft& draft) const {
     power_up.values = std::min(power_up.values, power_up.action.sends.size() - entry);
 }
 
-/// OUT is not written where terms disagree about it and no branch goes by it.
+/// OUT is not written if terms disagree about it and no branch uses it.
 void Drafter::note_outputs(Draft& draft) const {
     const auto agree = [&](const Terms& terms, std::uint8_t step) {
         return std::all_of(terms.begin(), terms.end(), [&](const TermBytes& term) {

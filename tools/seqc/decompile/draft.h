@@ -13,7 +13,7 @@
 
 namespace nplc::seqc {
 
-/// What an earlier draft showed not to work.
+/// What failed in an earlier draft.
 struct Exclusions {
     std::bitset<64> shape;  ///< the step must be TERMs
     std::bitset<64> entry;  ///< the step must have no ENTRY
@@ -23,16 +23,16 @@ struct Exclusions {
     bool operator==(const Exclusions&) const = default;
 };
 
-/// How a table is to be written.
+/// How to write a table as a program.
 struct Draft {
     Surroundings around;
-    std::optional<PowerUp> power_up;           ///< nothing: step 0 is a step with AT 0
+    std::optional<PowerUp> power_up;           ///< empty: step 0 is a step with AT 0
     std::vector<std::optional<Shape>> shapes;  ///< as in Layout::steps
     std::array<Action, 64> entries;            ///< by step number
-    std::bitset<64> says_outputs;              ///< the steps whose OUT is worth writing
+    std::bitset<64> says_outputs;              ///< steps whose OUT should be written
 };
 
-/// Makes drafts of one table; with more bans a plainer one.
+/// Makes drafts of one table; more exclusions give simpler programs.
 class Drafter {
   public:
     Drafter(const Layout& layout, registers::Model motor);
@@ -50,8 +50,8 @@ class Drafter {
 
     const Layout& layout_;
     std::vector<std::vector<Group>> groups_;  ///< as in Layout::steps
-    /// Found already: by place in Layout::steps, with or without ON ERROR, and OUT of step 0. All else in
-    /// the surroundings is the same in all drafts.
+    /// Cache: by place in Layout::steps, with or without ON ERROR, and OUT of step 0. The rest of the
+    /// surroundings is the same in all drafts.
     std::map<std::tuple<std::size_t, bool, std::uint8_t>, std::optional<Shape>> found_;
 };
 

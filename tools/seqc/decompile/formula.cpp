@@ -22,11 +22,11 @@ int cost_of(Product product) {
     return cost;
 }
 
-/// First what no term can test, then what is least worth reading.
+/// Literals to drop first: those no term can test, then the least informative ones.
 constexpr std::array<std::size_t, kBits> kDropOrder = {kErrorBit, kTimerZero, kCounterZero, 5, 4, 3, 2,
                                                        1,         0,          kInPosBit};
 
-/// Leaves out what can be left out; NOTs first or last.
+/// Removes literals that are not needed; negated ones first or last.
 Product widened(Product product, const Truth& allowed, bool keep_wanted) {
     const auto drop = [&](bool wanted) {
         for (std::size_t bit : kDropOrder) {
@@ -70,7 +70,7 @@ Products cover(const Truth& need, const Truth& allowed) {
     return products;
 }
 
-/// The half with or without ERROR, spread over both.
+/// Copies the half with or without ERROR to both.
 Truth mirrored(const Truth& cases, bool error) {
     constexpr std::size_t kShift = std::size_t{1} << kErrorBit;
     return error ? (cases & truth_of_bit(kErrorBit)) | ((cases & truth_of_bit(kErrorBit)) >> kShift)

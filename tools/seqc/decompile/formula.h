@@ -9,18 +9,18 @@
 
 namespace nplc::seqc {
 
-/// A condition as people write it.
+/// A condition in readable form.
 struct Formula {
-    std::string text;  ///< without the NOT ERROR that a condition means by itself
-    int cost = 0;      ///< how much there is to read
+    std::string text;  ///< without the implicit NOT ERROR of a condition
+    int cost = 0;      ///< reading effort
     bool is_true = false;
 };
 
-/// What the bits of a case are called.
+/// The names of a case's bits.
 using BitNames = std::array<std::string, kBits>;
 
-/// A short formula that holds in all of `need` and in nothing outside of `allowed`, which contains `need`.
-/// Short, not the shortest. `need` is not empty.
+/// A short formula that is true in all of `need` and in nothing outside of `allowed`, which contains `need`.
+/// Not guaranteed to be the shortest. `need` is not empty.
 Formula formula_of(const Truth& need, const Truth& allowed, const BitNames& names);
 
 }  // namespace nplc::seqc

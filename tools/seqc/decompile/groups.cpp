@@ -27,7 +27,7 @@ void add_fast(const FastStatement& fast, Group& group) {
     if (fast.preset != 0) (fast.presets_counter ? action.counter : action.timer) = fast.preset;
 }
 
-/// The terms as one action, if the compiler would make just these of it.
+/// The terms as one action, if the compiler would generate exactly these from it.
 Group group_of(std::span<const TermBytes> terms, registers::Model model) {
     Group group;
     group.count = terms.size();
@@ -66,7 +66,7 @@ std::vector<Group> groups_of(const Terms& terms, registers::Model model) {
         Group group;
         group.count = 1;
         group.when = cases_of(terms[at]);
-        // What the compiler makes of an action begins with what it makes of the action's beginning.
+        // The compiler's terms for the beginning of an action are the beginning of its terms.
         for (std::size_t count = 1; at + count <= terms.size(); ++count) {
             const TermBytes& last = terms[at + count - 1];
             if (!same_condition(terms[at], last) || !obstacle(last, model).empty()) break;

@@ -9,15 +9,15 @@
 
 namespace nplc::seqc {
 
-/// Neighbouring terms with one condition that are exactly what the compiler makes of one action.
+/// Adjacent terms with one condition that are exactly the compiler's translation of one action.
 struct Group {
-    std::size_t first = 0;  ///< of the step's terms
+    std::size_t first = 0;  ///< index in the step's terms
     std::size_t count = 0;
     Truth when;
     Action action;
     std::uint8_t outputs = 0;
     bool writes_outputs = false;  ///< has a term in FastMAC format
-    bool sound = false;           ///< not: a term that is no such action
+    bool sound = false;           ///< false: a term that is not the translation of an action
 
     bool cannot_be_undone() const { return !action.sends.empty() || action.presets(); }
     bool leaves(std::uint8_t step) const { return action.next && *action.next != step; }
@@ -25,7 +25,7 @@ struct Group {
 
 std::vector<Group> groups_of(const Terms& terms, registers::Model model);
 
-/// The cases in which a term holds.
+/// The cases in which a term is true.
 Truth cases_of(sequencer::TermView term);
 
 }  // namespace nplc::seqc

@@ -36,7 +36,7 @@ StepSet named_steps(const Terms& terms) {
     return named;
 }
 
-/// Before the first that has a higher number, so that the numbers ascend where the table lets them.
+/// Inserted before the first step with a higher number, so that numbers ascend as far as the table allows.
 void insert_empty(std::vector<Part>& steps, std::uint8_t number) {
     const auto behind =
         std::find_if(steps.begin(), steps.end(), [&](const Part& p) { return p.number > number; });

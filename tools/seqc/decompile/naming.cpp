@@ -41,7 +41,7 @@ bool can_name_a_signal(std::string_view name, registers::Model motor) {
     return is_name(name) && !is_address(name) && registers::find(motor, name) == nullptr;
 }
 
-/// Given names first, so that made-up ones keep out of their way.
+/// Given names first, so that generated ones avoid them.
 template <std::size_t N, class Usable>
 void choose(std::array<std::string, N>& names, std::size_t count, const std::array<std::string, N>* given,
             char letter, Names& taken, const Usable& usable) {

@@ -9,7 +9,7 @@ constexpr int kNobody = -1;
 constexpr int kUnwritten = -1;
 constexpr int kLeft = -2;
 
-/// In each case the last group that holds; false if what an earlier one did there would count too.
+/// In each case the last true group decides; false if an earlier one would also have an effect there.
 bool take_cases(const std::vector<Group>& groups, std::size_t index, std::array<int, kCases>& decisive) {
     const Group& group = groups[index];
     if (!group.sound) return false;
@@ -91,7 +91,7 @@ bool Reading::add_case(std::size_t number, Staying staying) {
     return add_rule(action, number);
 }
 
-/// Where ON ERROR sends something, ENTRY of the fault step says it, and so every way into it must do it.
+/// If ON ERROR sends orders, they are in ENTRY of the fault step, so every transition into it must have them.
 bool Reading::add_rule(const Action& action, std::size_t number) {
     for (Rule& rule : rules_) {
         if (!rule.action.same_effect(action)) continue;
@@ -107,7 +107,7 @@ bool Reading::add_rule(const Action& action, std::size_t number) {
     return true;
 }
 
-/// Outputs that come and go while the step is active. Then they are written in every scan.
+/// Outputs that change while the step is active. They are then written in every scan.
 bool Reading::add_conditional(StepPlan& plan) const {
     const std::uint8_t own = own_outputs();
     const bool always_written = step_ == 0 && own != 0;
@@ -118,7 +118,7 @@ bool Reading::add_conditional(StepPlan& plan) const {
         unwritten = unwritten || outputs == kUnwritten;
         if (outputs >= 0 && (outputs & own) != own) return false;
     }
-    if (shows_outputs_ && !differ && !always_written) return false;  // a term that changes nothing
+    if (shows_outputs_ && !differ && !always_written) return false;  // a term without effect
     if ((differ || always_written) && unwritten) return false;
     if (always_written) plan.conditional.push_back({own, always()});
     for (std::uint8_t bit = 1; bit < 16; bit = static_cast<std::uint8_t>(bit << 1)) {

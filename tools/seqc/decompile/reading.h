@@ -11,21 +11,21 @@
 
 namespace nplc::seqc {
 
-/// Ways to take a term that names its own step as the next one.
+/// Interpretations of a term that names its own step as the next one.
 enum class Staying : std::uint8_t {
-    undoes,   ///< it only takes a switch of an earlier term back
+    undoes,   ///< it only cancels a transition of an earlier term
     is_said,  ///< NEXT to the own step was written where nothing else happens
-    mixed,    ///< as `undoes` where nothing else happens, written where something does
+    mixed,    ///< as `undoes` where nothing else happens, as written where something does
 };
 
-/// What a step's groups do, case by case, as rules that never hold together.
+/// The effects of a step's groups, case by case, as mutually exclusive rules.
 class Reading {
   public:
     Reading(std::uint8_t step, const std::vector<Group>& groups, std::size_t count,
             const Surroundings& around)
         : step_(step), groups_(groups), count_(count), around_(around) {}
 
-    /// Nothing if no branches can say it. `on_error`: ON ERROR deals with ERROR.
+    /// Empty if branches cannot express it. `on_error`: ON ERROR handles ERROR.
     std::optional<StepPlan> run(Staying staying, bool on_error);
 
   private:
@@ -39,13 +39,15 @@ class Reading {
     const std::vector<Group>& groups_;
     std::size_t count_;
     const Surroundings& around_;
-    std::array<int, kCases> decisive_{};  ///< the last group that writes something; -1: none
-    std::array<int, kCases> resting_{};   ///< outputs while the step stays; -1: not written, -2: left
+    std::array<int, kCases> decisive_{};  ///< the last group with an effect; -1: none
+    std::array<int, kCases>
+        resting_{};  ///< outputs while the step stays active; -1: not written, -2: unchanged
     std::vector<Rule> rules_;
     bool shows_outputs_ = false;
 };
 
-/// How many groups, from the first, a program can say without TERMs: none of them act together in other ways.
+/// Number of groups, from the first, that can be expressed without TERMs: they do not act together in other
+/// ways.
 std::size_t compatible_groups(const std::vector<Group>& groups);
 
 }  // namespace nplc::seqc

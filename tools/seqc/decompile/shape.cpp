@@ -11,8 +11,8 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kMostGroups = 64;  // beyond it nobody reads a chain of branches
-constexpr std::size_t kMostLeft = 16;    // groups taken off its end in search of a shape: 0, 1, 2, 4 ..
+constexpr std::size_t kMostGroups = 64;  // beyond it a chain of branches is unreadable
+constexpr std::size_t kMostLeft = 16;    // groups removed from its end in search of a shape: 0, 1, 2, 4 ..
 constexpr std::size_t kMostSwaps = 40;
 constexpr std::array kStayings = {Staying::undoes, Staying::mixed, Staying::is_said};
 
@@ -28,7 +28,7 @@ int cost_of(const std::vector<Rule>& rules) {
     return cost;
 }
 
-/// Finds the order of branches that gives the wanted terms and is the easiest to read.
+/// Finds the order of branches that gives the wanted terms and is easiest to read.
 class OrderSearch {
   public:
     OrderSearch(const Part& part, std::size_t count, const Surroundings& around)
@@ -54,7 +54,7 @@ class OrderSearch {
                          [&](const Rule& a, const Rule& b) { return place(a) < place(b); });
     }
 
-    /// The rule's NEXT to its own step may have been left out.
+    /// The rule's NEXT to its own step may have been omitted.
     static bool says(const Group& group, const Rule& rule) {
         Action action = group.action;
         if (!rule.action.next) action.next.reset();
@@ -113,7 +113,7 @@ class ShapeSearch {
         return count == groups_.size() ? part_.terms.size() : groups_[count].first;
     }
 
-    /// The TERMs left over are about other cases; or they are few, and no branch stays to act together with
+    /// The remaining TERMs are for other cases; or they are few, and no branch stays active together with
     /// them.
     bool can_stand_before_the_rest(const StepPlan& plan, std::size_t count) const {
         Truth left;
@@ -124,7 +124,7 @@ class ShapeSearch {
         for (const Rule& rule : plan.rules) {
             if (!rule.action.next || *rule.action.next == part_.number) staying |= rule.when;
         }
-        if (!plan.conditional.empty()) return false;  // written in every scan, so beside all of them
+        if (!plan.conditional.empty()) return false;  // written in every scan, so together with all of them
         const bool are_few = 3 * terms_in(count) >= 2 * part_.terms.size();
         return (left & taken).none() || (are_few && (left & staying).none());
     }
@@ -157,7 +157,7 @@ class ShapeSearch {
     const Surroundings& around_;
 };
 
-/// The first sends that write registers, none of them twice.
+/// The leading sends that write registers, no register twice.
 std::size_t leading_values(const std::vector<Send>& sends) {
     std::size_t count = 0;
     const auto seen = [&](const registers::Register* reg) {

@@ -11,16 +11,16 @@
 
 namespace nplc::seqc {
 
-/// What holds for the whole table.
+/// Properties of the whole table.
 struct Surroundings {
     std::vector<std::uint8_t> outputs;  ///< OUT of every step, by number
-    std::optional<Action> fault;        ///< what ON ERROR does; `next` is the fault step
+    std::optional<Action> fault;        ///< the action of ON ERROR; `next` is the fault step
 };
 
-/// A step as branches and outputs.
+/// A step in the form of branches and outputs.
 struct Shape {
-    StepPlan plan;          ///< rules in order of writing, ON ERROR's not among them
-    std::size_t terms = 0;  ///< how many of the step's terms, from the first, they make
+    StepPlan plan;          ///< rules in order of writing, without ON ERROR's
+    std::size_t terms = 0;  ///< number of the step's terms, from the first, that they generate
 };
 
 /// One branch of the chain IF .. ELSIF .. ELSE.
@@ -29,28 +29,28 @@ struct Link {
     const Action* action = nullptr;
 };
 
-/// The conditions of rules, each without what those before it have taken.
+/// The conditions of rules, each without the cases of the previous ones.
 std::vector<Link> chain_of(const std::vector<Rule>& rules, const BitNames& names);
 
-/// What a step does on ERROR if that is the same in all cases and leads to another step.
+/// The step's action on ERROR if it is the same in all cases and leads to another step.
 const Action* error_exit(const Part& part, const std::vector<Group>& groups, const Surroundings& around);
 
-/// Whether `action` ends with all that `tail` does beside its NEXT.
+/// Whether `action` ends with all effects of `tail` except its NEXT.
 bool ends_with(const Action& action, const Action& tail);
 
-/// Whether the compiler makes exactly the first `count` terms of these rules.
+/// Whether the compiler generates exactly the first `count` terms from these rules.
 bool makes(const StepPlan& plan, const Part& part, std::size_t count, const Surroundings& around);
 
-/// The shape that the compiler makes the step's first terms of: of all if there is one, else of so many that
-/// those left over can stand behind it as TERMs and still be understood. Nothing if there is none.
+/// The shape from which the compiler generates the step's first terms: all terms if possible, else as many as
+/// leave the remaining TERMs understandable behind it. Empty if there is none.
 std::optional<Shape> find_shape(const Part& part, const std::vector<Group>& groups,
                                 const Surroundings& around);
 
-/// What POWER_UP does, if the terms of step 0 are what the compiler makes of one.
+/// The action of POWER_UP, if the terms of step 0 are the compiler's translation of one.
 struct PowerUp {
     Action action;
-    std::size_t values = 0;  ///< how many of its first sends are VAR_MOTOR's values
-    Action commands;         ///< the action without them
+    std::size_t values = 0;  ///< number of its first sends that are VAR_MOTOR's values
+    Action commands;         ///< the action without these sends
 };
 std::optional<PowerUp> find_power_up(const Part& part, const std::vector<Group>& groups,
                                      const Surroundings& around);

@@ -20,7 +20,7 @@ using RegisterGroup = protocol::fastmac::Group;
 
 constexpr std::uint8_t kLastCommonRegister = 88;  // the same on all motors up to here
 
-/// INIT, VELOCITY or POSITION with several registers, which the compiler sends in an order of its own.
+/// INIT, VELOCITY or POSITION with several registers, which the compiler sends in its own order.
 struct SelectedText {
     std::string text;
     std::size_t count = 0;
@@ -31,12 +31,12 @@ int rank(const SelectCommand& select) {
     return select.selection.group == RegisterGroup::v && select.mode == Mode::velocity ? 0 : 1;
 }
 
-/// "V1" of "INIT(V1)", or the name that the register has.
+/// "V1" of "INIT(V1)", or the register's given name.
 std::string argument(std::uint8_t command, const Naming& naming) {
     const std::string text = describe_command(command);
     const std::size_t open = text.find('(');
     std::string name = text.substr(open + 1, text.size() - open - 2);
-    // Those that are selected have one number in all motors.
+    // Registers that can be selected have the same number in all motors.
     const registers::Register* reg = registers::find(registers::Model::mac140, name);
     const auto given = reg != nullptr ? naming.registers.find(reg->number) : naming.registers.end();
     return given != naming.registers.end() ? given->second : name;
@@ -86,7 +86,7 @@ std::string register_text(const registers::Register& reg, const WriterContext& c
     return given != context.naming.registers.end() ? given->second : register_address(reg, context);
 }
 
-/// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
+/// Up to 88 the names that commands use too: V1, not the MAC800's VEL0.
 std::string register_address(const registers::Register& reg, const WriterContext& context) {
     const bool shared = reg.number <= kLastCommonRegister;
     const registers::Register* common =

@@ -25,7 +25,7 @@ constexpr std::uint8_t kFirstNameless = 0x77;  // 17h - 1Ch are further NOPs (00
 constexpr std::uint8_t kLastNameless = 0x7C;
 constexpr std::size_t kLongestDecimal = 10;
 
-/// The number that a register's bits stand for, in raw steps.
+/// The signed number in a register's bits, in raw steps.
 std::int64_t number_of(const Register& reg, std::uint32_t bits) {
     if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(bits);
     if (reg.format == Format::word) return bits & 0xFFFFU;
@@ -63,7 +63,7 @@ std::string_view flex_obstacle(const FlexStatement& flex, Model model) {
     return number < reg->min || number > reg->max ? "the value is out of the register's range" : "";
 }
 
-/// The unit to show a register's value in; empty: none says more than the number.
+/// The unit for a register's value; empty: a unit adds no information.
 std::string_view shown_unit(Unit unit) {
     if (unit == Unit::counts || unit == Unit::counts_16) return "rev";
     if (unit == Unit::samples) return "ms";
@@ -79,7 +79,7 @@ std::string bits_text(const Register& reg, std::uint32_t bits) {
     return registers::is_32_bit(reg.format) ? fmt::format("16#{:08X}", bits) : fmt::format("16#{:04X}", bits);
 }
 
-/// Behind the unit of SCALE; nothing for what it does not measure.
+/// The suffix after the unit of SCALE; empty if SCALE does not apply.
 std::optional<std::string_view> rate_of(Unit unit) {
     if (unit == Unit::counts || unit == Unit::counts_16) return "";
     if (unit == Unit::velocity || unit == Unit::velocity_16) return "/s";
@@ -87,7 +87,7 @@ std::optional<std::string_view> rate_of(Unit unit) {
     return std::nullopt;
 }
 
-/// "60 mm", the shortest that is this number of steps; empty without a scale, or if none is short.
+/// "60 mm": the shortest text for this number of steps; empty without a scale, or if none is short.
 std::string length_text(const Register& reg, std::int64_t number, const Symbols& symbols) {
     const auto rate = rate_of(reg.unit);
     if (!symbols.scale || !rate) return {};
@@ -97,7 +97,7 @@ std::string length_text(const Register& reg, std::int64_t number, const Symbols&
     const auto steps = raw_per_unit(reg, symbols.motor, unit, written);
     if (!steps) return {};
     constexpr int kMostDigits = 8;
-    constexpr double kMostOff = 0.005;  // else W002 would tell of it
+    constexpr double kMostOff = 0.005;  // otherwise W002 would report it
     for (int digits = 1; digits <= kMostDigits; ++digits) {
         const std::string value = fmt::format("{:.{}g}", static_cast<double>(number) / *steps, digits);
         const bool is_plain = value.find('e') == std::string::npos;

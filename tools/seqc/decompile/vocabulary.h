@@ -9,17 +9,17 @@
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 
-/// What the language has words for.
+/// What can be expressed in the language.
 namespace nplc::seqc {
 
-/// Why a single TERM in symbols cannot be these bytes; empty if it can.
+/// Why these bytes cannot be a single symbolic TERM; empty if they can.
 std::string_view obstacle(sequencer::TermView bytes, registers::Model model);
 
-/// The command or register write of a term that has one and no obstacle.
+/// The command or register write of a term that has one and no obstacle().
 Send send_of(const sequencer::Term& term, registers::Model model);
 
-/// A register's value as it is written in a program, and in a physical unit if it has one. With a scale whose
-/// length is exact, positions are written in it.
+/// A register's value as written in a program, and in a physical unit if it has one. With a SCALE that gives
+/// an exact length, positions are written in that unit.
 struct ValueText {
     std::string text;
     std::string comment;  ///< "1500.1 rpm"; may be empty

@@ -29,7 +29,7 @@ Action without(Action action, const Action& tail) {
     return action;
 }
 
-/// Whether the numbers that steps get by themselves are those of the table.
+/// Whether the automatic step numbers are those of the table.
 bool numbers_itself(const Layout& layout) {
     std::uint8_t next = 1;
     return std::all_of(layout.steps.begin(), layout.steps.end(),
@@ -168,7 +168,7 @@ class Writer {
             address);
     }
 
-    /// What a branch says itself: not what ENTRY of the step it enters says.
+    /// The part of an action that a branch states itself, without ENTRY of the step it enters.
     Action said(const Action& action, std::uint8_t from) const {
         const bool enters = action.next && *action.next != from;
         return enters ? without(action, draft_.entries[*action.next]) : action;

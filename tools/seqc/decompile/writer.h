@@ -10,12 +10,12 @@
 
 namespace nplc::seqc {
 
-/// A stretch of the program and what it says.
+/// A section of the program and its meaning.
 struct Passage {
     enum class Kind : std::uint8_t { names, values, on_error, power_up, entry, step, rest };
     Kind kind = Kind::rest;
     std::uint8_t step = 0;
-    std::size_t end = 0;  ///< it reaches from the one before to here
+    std::size_t end = 0;  ///< it extends from the previous one to here
 };
 
 struct WrittenProgram {
@@ -23,7 +23,7 @@ struct WrittenProgram {
     std::vector<Passage> passages;
 };
 
-/// The program of a draft, `head` (comment lines) first.
+/// Writes the program of a draft, with `head` (comment lines) first.
 WrittenProgram write_program(const Layout& layout, const Draft& draft, const WriterContext& context,
                              const std::string& head);
 

@@ -9,19 +9,19 @@
 
 namespace nplc::seqc {
 
-/// What of the compiler finds the mistake. A file of explanations and one of golden cases belong to each.
+/// The compiler phase that detects the error. Each has a file of explanations and one of golden cases.
 enum class Phase : std::uint8_t {
     lexical,
     syntax,
     names,
     motor,       ///< MOTOR, SCALE, registers and their values
-    commands,    ///< what each command takes
+    commands,    ///< the arguments of commands
     scan,        ///< what a scan can do, and how often
-    conditions,  ///< what the conditions of a step and its terms can tell apart
+    conditions,  ///< what the conditions of a step and its terms can distinguish
     steps,       ///< the program as a whole
     terms,       ///< TERM lines
-    motion,      ///< the motor followed through the steps
-    courses,     ///< what `seqc verify` finds in all courses: errors are faults, warnings advice
+    motion,      ///< the motor tracked through the steps
+    courses,     ///< findings of `seqc verify` over all courses: errors are faults, warnings advice
 };
 
 struct CodeRow {
@@ -30,7 +30,7 @@ struct CodeRow {
     Phase phase;
 };
 
-/// Every diagnostic there is, sorted.
+/// All diagnostics, sorted.
 constexpr auto kCodes = std::to_array<CodeRow>({
     {"E001", Severity::error, Phase::lexical},      {"E002", Severity::error, Phase::lexical},
     {"E003", Severity::error, Phase::lexical},      {"E004", Severity::error, Phase::lexical},
@@ -92,6 +92,8 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W042", Severity::warning, Phase::motion},     {"W043", Severity::warning, Phase::motion},
     {"W044", Severity::warning, Phase::motion},     {"W045", Severity::warning, Phase::motion},
     {"W046", Severity::warning, Phase::motion},
+    {"W050", Severity::warning, Phase::motion},     {"W051", Severity::warning, Phase::motion},
+    {"W052", Severity::warning, Phase::motion},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {
@@ -100,12 +102,12 @@ constexpr const CodeRow* find_code(std::string_view code) {
     return row != kCodes.end() && row->code == code ? row : nullptr;
 }
 
-/// Warnings of what may be meant: a step can ALLOW them, as what `seqc verify` finds by itself.
+/// Warnings about code that may be intended: a step can ALLOW them, like the own findings of `seqc verify`.
 constexpr bool is_advice(std::string_view code) {
     return code == "W019" || code == "W022" || (code >= "W035" && code != "W039" && code <= "W046");
 }
 
-/// A code of the table: any other literal does not compile.
+/// A code of the table; any other literal does not compile.
 class Code {
   public:
     consteval Code(const char* code)

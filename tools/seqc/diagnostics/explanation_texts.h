@@ -5,10 +5,10 @@
 
 namespace nplc::seqc {
 
-/// The files diagnostics/*.txt, put into the program by the build.
+/// The files diagnostics/*.txt, embedded by the build.
 extern const std::span<const std::string_view> kExplanationTexts;
 
-/// LANGUAGE.md, likewise.
+/// LANGUAGE.md, embedded likewise.
 extern const std::string_view kReference;
 
 }  // namespace nplc::seqc

@@ -64,8 +64,8 @@ std::string written_out(std::string_view example, Repeat repeat) {
 constexpr std::string_view kEntry = "\n=== ";
 constexpr std::string_view kExample = "\n--- wrong (-) and right (+)\n";
 
-/// "=== E012 title", the explanation, and perhaps an example: lines of both programs begin with a blank,
-/// those of the wrong one with -, of the right one with +.
+/// Parses "=== E012 title", the explanation, and an optional example: lines of both programs begin with a
+/// blank, those of the wrong one with -, of the right one with +.
 Explanation entry(std::string_view text) {
     const std::size_t title_end = text.find('\n');
     const std::size_t example = std::min(text.find(kExample), text.size() - 1);

@@ -6,13 +6,13 @@
 
 namespace nplc::seqc {
 
-/// What `seqc explain` tells about a code.
+/// The text of `seqc explain` about a code.
 struct Explanation {
     std::string_view code;   ///< E012
-    std::string_view title;  ///< what is wrong, in a few words
-    std::string_view text;   ///< why it is, and what to do
-    std::string wrong;       ///< a whole program that gives the code; empty if no program can
-    std::string right;       ///< the same without the mistake
+    std::string_view title;  ///< the error in a few words
+    std::string_view text;   ///< reason and remedy
+    std::string wrong;       ///< a complete program with this error; empty if there can be none
+    std::string right;       ///< the same, corrected
 };
 
 /// All of them, sorted by code.
@@ -20,7 +20,7 @@ std::vector<Explanation> explanations();
 
 /// In a line of an example `{1..62}` stands for 62 such lines: $ is the line's number, @ the next one.
 std::string whole_program(std::string_view example);
-/// The same to be read: of the repeated lines only the first and the last.
+/// The same for display: only the first and the last of repeated lines.
 std::string shown_program(std::string_view example);
 
 }  // namespace nplc::seqc

@@ -13,7 +13,7 @@ bool is_word_character(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// How often it stands there as a word; as code it counts three times.
+/// Number of occurrences as a word; in code formatting each counts three times.
 std::size_t weight(std::string_view text, std::string_view word) {
     std::size_t sum = 0;
     for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
@@ -32,7 +32,7 @@ bool ends_block(std::string_view line) {
     return line.empty() || line.starts_with("|") || line.starts_with("#") || line.starts_with("    ");
 }
 
-/// The next paragraph, row or rule of the text.
+/// Takes the next paragraph, row or rule of the text.
 std::string_view take_block(std::string_view& rest) {
     std::size_t length = 0;
     while (length < rest.size()) {
@@ -72,6 +72,25 @@ std::vector<Paragraph> passages_about(std::string_view word) {
         if (passages.size() < kMost) passages.push_back(one.passage);
     }
     return passages;
+}
+
+std::vector<std::string_view> reference_words() {
+    constexpr std::size_t kShortest = 3;
+    std::vector<std::string_view> words;
+    const std::string_view text = kReference;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        bool is_small = false;
+        for (; end < text.size() && is_word_character(text[end]); ++end)
+            is_small = is_small || (text[end] >= 'a' && text[end] <= 'z');
+        const bool begins_with_letter = text[at] >= 'A' && text[at] <= 'Z';
+        if (end - at >= kShortest && !is_small && begins_with_letter)
+            words.push_back(text.substr(at, end - at));
+        at = std::max(end, at + 1);
+    }
+    std::sort(words.begin(), words.end());
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    return words;
 }
 
 }  // namespace nplc::seqc

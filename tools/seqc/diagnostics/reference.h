@@ -11,7 +11,10 @@ struct Paragraph {
     std::string_view text;
 };
 
-/// What the reference says about a word, where it says most first; empty if it does not know the word.
+/// The reference's passages about a word, the most relevant first; empty if it does not occur.
 std::vector<Paragraph> passages_about(std::string_view word);
+
+/// Words in capitals that it has, each once.
+std::vector<std::string_view> reference_words();
 
 }  // namespace nplc::seqc

@@ -52,7 +52,7 @@ Line line_at(std::string_view source, std::size_t offset) {
     return {source.substr(start, end - start), start};
 }
 
-/// A terminal's colours, or nothing.
+/// Terminal colours, or empty.
 struct Paint {
     explicit Paint(Colour colour) : on(colour == Colour::on) {}
 
@@ -69,7 +69,7 @@ constexpr std::string_view kWarning = "1;33";
 constexpr std::string_view kNote = "1;36";
 constexpr std::string_view kHelp = "1;32";
 
-/// About kShown bytes of a line, with the column in it; whole characters.
+/// About kShown bytes of a line around a column; whole characters.
 struct Window {
     std::string_view text;
     std::size_t column;
@@ -106,7 +106,7 @@ std::string excerpt(std::string_view source, Span span, const Paint& paint, std:
                        paint(colour, "^" + std::string(width - 1, '~')));
 }
 
-/// Names and values in a message may be as long as the program.
+/// Truncates: names and values in a message may be as long as the program.
 std::string bounded(const std::string& message) {
     if (message.size() <= kLongestMessage) return printable(message);
     std::size_t head = kLongestMessage / 2;
@@ -142,7 +142,7 @@ Position Positions::of(std::uint32_t offset) const {
 
 namespace {
 
-/// The part of a text in which a place lies.
+/// The file of a position, with its text.
 struct Located {
     std::string_view source;
     std::string_view file_name;

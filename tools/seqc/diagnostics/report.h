@@ -9,26 +9,26 @@
 
 namespace nplc::seqc {
 
-/// Collects diagnostics. Beyond a bound further ones are dropped, warnings first: nobody reads them.
+/// Collects diagnostics. Beyond a limit further ones are dropped, warnings first.
 class Report {
   public:
     Diagnostic& add(Code code, Span span, std::string message, std::string help = {});
     Diagnostic& add(Diagnostic diagnostic);
 
-    /// The one added last; there must be one.
+    /// The last one added; there must be one.
     Diagnostic& last() { return diagnostics_.back(); }
 
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
     bool full() const { return diagnostics_.size() >= kMost; }
-    /// Further errors would be dropped; as long as it does not hold, an error takes a warning's place.
+    /// Further errors would be dropped. Until then a new error replaces a warning.
     bool full_of_errors() const { return errors_ >= kMost; }
-    /// Some were dropped, here or in a report whose diagnostics were added.
+    /// Diagnostics were dropped, here or in a report that was merged.
     bool has_more() const { return more_; }
     void note_more() { more_ = true; }
     bool has(std::string_view code) const;
     bool has(std::string_view code, Span span) const;
-    /// Warnings of which `unwanted` holds.
+    /// Removes warnings that satisfy `unwanted`.
     template <class Unwanted>
     void drop(const Unwanted& unwanted) {
         std::erase_if(diagnostics_,

@@ -63,7 +63,7 @@ std::string fault_between(std::string_view source, std::string_view text) {
 
 namespace {
 
-/// The parser also reports what stands twice or has an odd value: such programs can be laid out.
+/// The parser also reports duplicates and invalid values: such programs can be formatted.
 bool is_about_grammar(const Diagnostic& diagnostic) {
     const bool is_about_meaning =
         diagnostic.code == "E020" || diagnostic.code == "E032" || diagnostic.code == "E090";

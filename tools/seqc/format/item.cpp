@@ -8,12 +8,12 @@ namespace {
 constexpr std::uint32_t kTab = 4;
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
-/// Follows line ends and columns through the source.
+/// Tracks line ends and columns through the source.
 class Place {
   public:
     explicit Place(std::string_view source) : source_(source) {}
 
-    /// Goes on to `offset`; answers how many line ends were passed.
+    /// Advances to `offset`; returns the number of line ends passed.
     std::size_t go_to(std::size_t offset) {
         std::size_t breaks = 0;
         for (; at_ < offset; ++at_) {

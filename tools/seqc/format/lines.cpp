@@ -54,7 +54,7 @@ class Assembler {
         lines_.back().code.push_back(&token);
     }
 
-    /// The comments `first` to `next`, behind which the token `next` or the end follows.
+    /// Adds the comments `first` to `next`, which are followed by the token `next` or the end.
     void add_comments(std::size_t first, std::size_t next) {
         const bool at_end = next == items_.size();
         if (!lines_.empty() && !at_end && !items_[next].starts_line) {
@@ -76,7 +76,7 @@ class Assembler {
         }
     }
 
-    /// Where the comments begin that stand before the token `i` on its line, or the token itself.
+    /// Index of the first comment before the token `i` on its line, or the token itself.
     std::size_t start_of_source_line(std::size_t i) const {
         while (i > 0 && items_[i].breaks == 0 && items_[i - 1].is_comment()) --i;
         return i;
@@ -106,7 +106,7 @@ class Assembler {
         return token.level + (is_deeper ? 1U : 0U);
     }
 
-    /// Comments within a statement: a line comment ends the line, all else is like a word.
+    /// Comments within a statement: a line comment ends the line, other comments are handled like a word.
     void add_inside(Item& comment) {
         if (comment.kind == Kind::line_comment && continues_comment(comment)) {
             add_continued_comment(comment);
@@ -124,7 +124,7 @@ class Assembler {
         must_break_ = comment.kind == Kind::line_comment;
     }
 
-    /// A line comment right below one that stands behind code belongs to it.
+    /// A line comment directly below one after code continues it.
     bool continues_comment(const Item& comment) const {
         if (comment.kind != Kind::line_comment || comment.breaks != 1 || lines_.empty()) return false;
         const Line& before = lines_.back();

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kCommentColumn = 40;
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kWidestInRun = 72;  // a longer line does not move the comments of its neighbours
+constexpr std::size_t kWidestInRun = 72;  // a longer line does not move its neighbours' comments
 
 class Printer {
   public:
@@ -22,7 +22,7 @@ class Printer {
     }
 
   private:
-    /// Neighbouring lines with comments behind them share a column.
+    /// Adjacent lines with comments after code share a column.
     void begin_run(std::size_t first) {
         column_ = kCommentColumn;
         for (run_end_ = first; run_end_ < lines_.size(); ++run_end_) {

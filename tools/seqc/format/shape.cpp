@@ -11,7 +11,7 @@ bool is_any(const Item& item, std::initializer_list<std::string_view> symbols) {
            std::find(symbols.begin(), symbols.end(), item.text) != symbols.end();
 }
 
-/// Before a sign that joins two values.
+/// Whether an operator may follow.
 bool ends_value(const Item& item) {
     return item.kind == Item::Kind::name || item.is_symbol(")") || item.token == TokenKind::number ||
            item.token == TokenKind::based || item.token == TokenKind::time || item.token == TokenKind::direct;
@@ -74,7 +74,7 @@ class Shaper {
         return from < to;
     }
 
-    /// Behind the closing word at `i` and the semicolon that may follow it.
+    /// Index after the closing word at `i` and an optional semicolon.
     std::size_t past(std::size_t i) const {
         if (!is_end(i)) ++i;
         return tokens_.is_symbol(i, ";") ? i + 1 : i;
@@ -91,7 +91,7 @@ class Shaper {
         return past(i);
     }
 
-    /// The comments that stand before a token on its line; those behind code go with that.
+    /// Comments before a token on its line; those after code belong to that code.
     std::size_t led_by(std::size_t token) const {
         std::size_t sum = 0;
         std::size_t i = tokens_.place(token);
@@ -100,7 +100,7 @@ class Shaper {
         return i > 0 && items_[i].breaks == 0 ? 0 : sum;
     }
 
-    /// Whether tokens `first` to `last` stand on one line of the source and would fit on one here.
+    /// Whether tokens `first` to `last` are on one line of the source and would fit on one here.
     bool stays_on_one_line(std::size_t first, std::size_t last, std::size_t level) const {
         if (is_end(last)) return false;
         std::size_t sum = (level + base_) * kIndent + width(tokens_[first].text);
@@ -133,7 +133,7 @@ class Shaper {
     std::vector<Item>& items_;
     Tokens tokens_;
     std::size_t at_ = 0;
-    std::size_t base_ = 0;  ///< levels of what stands around: a SEQUENCE
+    std::size_t base_ = 0;  ///< levels of the enclosing SEQUENCE
 };
 
 void Shaper::shape_item() {

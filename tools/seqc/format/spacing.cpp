@@ -21,8 +21,8 @@ bool may_wrap(const Line& line) {
            });
 }
 
-/// Behind the last word of the line that begins at `first`. Where nothing may break within the width, the
-/// line is as short as it can be.
+/// Index after the last word of the line that begins at `first`. If no break fits the width, the line is as
+/// short as possible.
 std::size_t end_of_line(const std::vector<Item*>& code, std::size_t first, std::size_t indent) {
     std::size_t end = 0;
     std::size_t before = indent + width(code[first]->text);
@@ -63,7 +63,7 @@ bool opens_block(const Line& line) {
     return line.role == Role::opener && line.indent == 0;
 }
 
-/// A statement's last line, the comment lines behind it, and the first line of the next statement.
+/// Handles a statement's last line, the comment lines after it, and the first line of the next statement.
 void keep_apart(std::span<Line> gap) {
     if (!closes_block(gap.front()) && !opens_block(gap.back())) return;
     const auto between = gap.subspan(1);
@@ -78,7 +78,7 @@ struct Declaration {
     std::size_t address_width = 0;
 };
 
-/// Nothing to align where comments stand among the words.
+/// Lines with comments among the words are not aligned.
 bool is_aligned(std::span<const Line> rest) {
     const Line& line = rest.front();
     const bool is_whole = rest.size() < 2 || !rest[1].continues || rest[1].continues_comment;
@@ -145,7 +145,7 @@ void wrap(std::vector<Line>& lines) {
 }
 
 void space_out(std::vector<Line>& lines) {
-    std::size_t statement = lines.size();  // the last line of the last one
+    std::size_t statement = lines.size();  // last line of the last statement
     for (std::size_t i = 0; i < lines.size(); ++i) {
         Line& line = lines[i];
         const bool at_edge = i == 0 || lines[i - 1].role == Role::opener ||

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 10> kUnits = {"counts", "count", "rev",     "rpm",   "s",
                                                      "s2",     "ms",    "samples", "%peak", "%nominal"};
 
-/// Keywords behind which a statement may begin.
+/// Keywords that a statement may follow.
 constexpr std::array<std::string_view, 6> kBeforeStatement = {"THEN",       "ELSE",   "ENTRY",
                                                               "EVERY_SCAN", "END_IF", "POWER_UP"};
 
@@ -31,7 +31,7 @@ bool is_digits(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
-/// The case in which names were declared.
+/// The spelling of names in their declarations.
 class Names {
   public:
     void declare(std::string_view name) { names_.try_emplace(upper(name), name); }
@@ -61,7 +61,7 @@ class Speller {
   private:
     void respell(Item& item, std::string text) { item.text = document_.texts.emplace_back(std::move(text)); }
 
-    /// A word behind '/' is part of a unit.
+    /// A word after '/' is part of a unit.
     void mark_keywords() {
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             Item& item = tokens_[i];

@@ -7,8 +7,8 @@
 
 namespace nplc::seqc {
 
-/// A term in the language's words: "Idle: IF Start AND NOT ERROR THEN POSITION(P2); OUT Grip; NEXT :=
-/// Travel". Without symbols steps and signals go by number.
+/// A term in words of the language: "Idle: IF Start AND NOT ERROR THEN POSITION(P2); OUT Grip; NEXT :=
+/// Travel". Without symbols steps and signals are numbers.
 std::string describe(sequencer::TermView bytes, const Symbols* symbols);
 
 /// "TERM 16#C0, 16#01, ...;"

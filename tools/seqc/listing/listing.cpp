@@ -24,7 +24,7 @@ std::string term_line(std::size_t index, sequencer::TermView bytes, const Compil
                        describe(bytes, &compilation.symbols));
 }
 
-/// Of the lines' numbers, which say the file too where it is an included one.
+/// Width of the line numbers, which include the file name for included files.
 std::size_t width_of_lines(const Compilation& compilation, const Places& places) {
     std::size_t width = 6;
     for (const TermOrigin& origin : compilation.origins) {
@@ -33,7 +33,7 @@ std::size_t width_of_lines(const Compilation& compilation, const Places& places)
     return width;
 }
 
-/// What stands in the files, which the terms' lines name.
+/// The contents of the files that the terms' lines refer to.
 std::string files_of(const Sources& sources) {
     std::string text;
     for (const SourceFile& file : sources.files()) {

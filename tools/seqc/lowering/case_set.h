@@ -9,7 +9,7 @@
 
 namespace nplc::seqc {
 
-/// Cases of a reduced step, up to 512 of them; as many words as it needs.
+/// A bit set of cases of a reduced step, up to 512; sized as needed.
 class CaseSet {
   public:
     explicit CaseSet(std::size_t cases = 0) : words_((cases + 63) / 64) {}

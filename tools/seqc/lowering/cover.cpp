@@ -14,14 +14,14 @@
 namespace nplc::seqc {
 namespace {
 
-/// Fewest sets that together hold all of `need`: exact up to a bound on the search, beyond it as few as a
-/// greedy choice finds. Of equal choices the earlier sets are taken.
+/// Minimum set cover of `need`: exact up to a search limit, beyond it greedy. Ties are resolved in favour of
+/// earlier sets.
 template <std::size_t kSize>
 class CoverSearch {
   public:
     using Set = std::bitset<kSize>;
 
-    /// `useful`: what each set holds of `need`; together all of it.
+    /// `useful`: the intersection of each set with `need`; their union is `need`.
     CoverSearch(const Set& need, std::vector<Set> useful) : need_(need), useful_(std::move(useful)) {
         for (std::size_t point = 0; point < kSize; ++point) {
             if (!need.test(point)) continue;
@@ -31,7 +31,7 @@ class CoverSearch {
         }
     }
 
-    /// Indices of the sets chosen.
+    /// Indices of the chosen sets.
     std::vector<std::size_t> run() {
         best_ = greedy();
         std::vector<std::size_t> chosen;
@@ -42,7 +42,7 @@ class CoverSearch {
   private:
     static constexpr int kSearchBound = 2'000;
 
-    /// The set that holds most open points, and how many.
+    /// The set that covers most open points, and their number.
     std::pair<std::size_t, std::size_t> widest(const Set& open) const {
         std::pair<std::size_t, std::size_t> best = {0, 0};
         for (std::size_t i = 0; i < useful_.size(); ++i) {
@@ -59,7 +59,7 @@ class CoverSearch {
         return chosen;
     }
 
-    /// The open point with the fewest sets to choose from.
+    /// The open point covered by the fewest sets.
     std::size_t hardest_point(const Set& open) const {
         std::size_t hardest = kSize;
         for (std::size_t point = 0; point < kSize; ++point) {
@@ -93,11 +93,11 @@ class CoverSearch {
 
 struct Prime {
     Cube cube;
-    Points useful;  // the points that it takes of those needed
+    Points useful;  // the needed points that it covers
 };
 
-/// Cubes inside `allowed` that are worth taking, wide ones first: none holds a smaller part of `need` than
-/// one before it.
+/// Useful implicants inside `allowed`, largest first: none covers a subset of the part of `need` that an
+/// earlier one covers.
 std::vector<Prime> primes_of(const Points& need, const Points& allowed, std::size_t variables) {
     enum Mark : std::uint8_t { kOutside = 1, kNeeded = 2 };
     const Ternary& cubes = Ternary::of(variables);
@@ -148,8 +148,8 @@ std::vector<Cube> minimal_cover(const Points& need, const Points& allowed) {
 
 namespace {
 
-/// All products over some of the ten bits, as numbers with a digit a bit: 0 and 1 ask for that value, 2 for
-/// none. A product is the union of the two with one digit 2 replaced by 0 and by 1.
+/// All products over some of the ten bits, as ternary numbers with one digit per bit: 0 and 1 require that
+/// value, 2 is don't care. A product is the union of the two with one digit 2 replaced by 0 and by 1.
 class Products {
   public:
     Products(const Truth& need, const Truth& allowed) {
@@ -161,7 +161,8 @@ class Products {
         for (std::size_t number = 0; number < marks_.size(); ++number) mark(number, need, allowed);
     }
 
-    /// Those inside `allowed` that hold some of `need` and lie within no other, short ones first.
+    /// Prime implicants: products inside `allowed` that intersect `need` and are not contained in another
+    /// one, short ones first.
     std::vector<Product> primes() const {
         std::vector<Product> found;
         for (std::size_t number = 0; number < marks_.size(); ++number) {
@@ -175,8 +176,8 @@ class Products {
     }
 
   private:
-    static constexpr std::uint8_t kInside = 1;  // within `allowed`
-    static constexpr std::uint8_t kUseful = 2;  // holds some of `need`
+    static constexpr std::uint8_t kInside = 1;  // contained in `allowed`
+    static constexpr std::uint8_t kUseful = 2;  // intersects `need`
 
     std::size_t digit(std::size_t number, std::size_t place) const { return number / powers_[place] % 3; }
 
@@ -216,7 +217,7 @@ class Products {
     std::vector<std::uint8_t> marks_;
 };
 
-/// By the first bit in which they differ: asked for, asked for not, not asked for.
+/// By the first differing bit: required 1, required 0, don't care.
 bool comes_before(const Product& a, const Product& b) {
     for (std::size_t bit = 0; bit < kBits; ++bit) {
         const auto rank = [bit](const Product& p) { return !p.cares(bit) ? 2 : p.wants(bit) ? 0 : 1; };

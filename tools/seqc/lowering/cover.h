@@ -8,7 +8,8 @@
 
 namespace nplc::seqc {
 
-/// Inputs 0..5 in bits 0..5 and IN_POS in bit 6: what a term may leave open, apart from timer and counter.
+/// Inputs 0..5 in bits 0..5 and IN_POS in bit 6: the bits that can be don't care in a term, apart from timer
+/// and counter.
 inline constexpr std::size_t kPoints = 128;
 using Points = std::bitset<kPoints>;
 
@@ -21,17 +22,17 @@ struct Cube {
 
 Points points_of(Cube cube);
 
-/// Fewest cubes that together hold all of `need` and nothing outside `allowed` (which contains `need`).
-/// They may overlap. Exact up to a bound on the search; beyond it the fewest that were found.
+/// Minimum number of cubes that together cover all of `need` and nothing outside `allowed` (which contains
+/// `need`). They may overlap. Exact up to a search limit; beyond it the best cover found.
 std::vector<Cube> minimal_cover(const Points& need, const Points& allowed);
 
-/// Fewest cubes that hold exactly `need`, no point twice: for what must not be sent twice. Exact up to a
-/// bound on the search; beyond it the fewest that were found.
+/// Minimum number of disjoint cubes that cover exactly `need`: for orders that must not be sent twice. Exact
+/// up to a search limit; beyond it the best cover found.
 std::vector<Cube> disjoint_cover(const Points& need);
 
-/// Fewest products that together hold in all cases of `need` and in none outside of `allowed` (which contains
-/// `need`), each as short as possible. What the user reads: unlike a term's, they may ask for "timer not
-/// zero". Exact up to a bound on the search, beyond it as few as a greedy choice finds.
+/// Minimum number of products that together are true in all cases of `need` and in none outside of `allowed`
+/// (which contains `need`), each as short as possible. For display: unlike a term's condition, they may
+/// contain "timer not zero". Exact up to a search limit, beyond it greedy.
 std::vector<Product> shortest_products(const Truth& need, const Truth& allowed);
 
 }  // namespace nplc::seqc

@@ -10,7 +10,7 @@ namespace {
 using sequencer::FastStatement;
 using sequencer::Term;
 
-/// Index of the effect of `action` with `outputs`, made if it is new.
+/// Index of the effect of `action` with `outputs`, added if it is new.
 int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t outputs, const StepPlan& step) {
     for (std::size_t i = 0; i < list.size(); ++i) {
         if (list[i].action == action && list[i].outputs == outputs) return static_cast<int>(i);

@@ -10,14 +10,14 @@
 
 namespace nplc::seqc {
 
-/// What the terms of one kind of case do: a rule's action, or only outputs, with the outputs written along.
+/// The effect of the terms for one kind of case: a rule's action, or outputs only, together with the outputs.
 struct Effect {
-    const Action* action = nullptr;  ///< none: outputs only
+    const Action* action = nullptr;  ///< null: outputs only
     std::uint8_t outputs = 0;
     std::uint8_t own_step = 0;
-    bool stays = false;           ///< names its own step as the next, to undo a term before it
-    bool writes_outputs = false;  ///< needs a FastMAC-format term even if nothing else does
-    Truth fired;                  ///< cases in which one of its terms holds
+    bool stays = false;           ///< names its own step as the next, to cancel an earlier term's
+    bool writes_outputs = false;  ///< needs a FastMAC-format term even without other effects
+    Truth fired;                  ///< cases in which one of its terms is true
     Span span;
 
     bool is_hard() const { return action != nullptr || stays; }
@@ -35,17 +35,18 @@ struct Effects {
     std::array<std::uint8_t, kCases> resting{};  ///< outputs while the step stays
 };
 
-/// How outputs that follow the timer or the counter go with what a branch sends while the step stays.
+/// How outputs that depend on the timer or the counter are combined with a branch's orders while the step
+/// stays.
 enum class Outputs : std::uint8_t {
-    along,  ///< an effect for each
-    apart,  ///< one effect, with the outputs of a timer and a counter that run; later terms mend them
+    along,  ///< a separate effect for each
+    apart,  ///< one effect, with the outputs for a running timer and counter; later terms correct them
 };
 
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                    Outputs outputs = Outputs::along);
 
-/// The terms that carry one effect under one condition: commands in order, each FastMAC-format one with the
-/// same next step and outputs, since the last of them wins.
+/// Appends the terms of one effect under one condition: commands in order, each FastMAC-format one with the
+/// same next step and outputs, since the last one decides.
 void append_terms(const Effect& effect, const sequencer::Condition& condition,
                   std::vector<LoweredTerm>& terms);
 

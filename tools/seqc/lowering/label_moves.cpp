@@ -1,4 +1,4 @@
-// How LabelSearch finds the terms that may stand next, and places one.
+// How LabelSearch finds the candidate terms for the next position, and places one.
 #include <algorithm>
 #include <numeric>
 
@@ -7,7 +7,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// What a term without an order may be in a region: with or without a next step, with or without a preset.
+/// Kinds of terms without an order in a region: with or without a next step, with or without a preset.
 enum MoveKind : std::uint8_t {
     kNamed = 1,
     kNamedTimer = 2,
@@ -20,7 +20,7 @@ constexpr std::uint8_t kAnyNamed = kNamed | kNamedTimer | kNamedCounter;
 constexpr std::uint8_t kAnyTimer = kNamedTimer | kUnnamedTimer;
 constexpr std::uint8_t kAnyCounter = kNamedCounter | kUnnamedCounter;
 
-/// Inlined where it is asked for every cube.
+/// Inlined because it is evaluated for every cube.
 inline std::uint8_t kinds_in(OpenBits open, const OpenLayout& layout, bool unnamed_help) {
     if (!at_most_one(open & layout.outputs)) return 0;
     const bool named = at_most_one(open & layout.nexts);
@@ -48,7 +48,7 @@ OpenBits LabelSearch::cleared_by(Kinds kind) const {
     return bits;
 }
 
-/// All that is open in each cube, from the points up.
+/// Computes all open bits of each cube, from the points up.
 void LabelSearch::survey(const State& state) {
     const std::size_t size = cubes_.size();
     const std::size_t points = std::size_t{1} << inputs();
@@ -70,7 +70,7 @@ void LabelSearch::survey(const State& state) {
     work_ += masks_.size();
 }
 
-/// Only the widest regions of a kind are worth a term.
+/// Only maximal regions of a kind are candidates.
 std::vector<LabelSearch::Candidate> LabelSearch::candidates(const State& state) {
     survey(state);
     const std::size_t size = cubes_.size();
@@ -111,7 +111,7 @@ CaseSet LabelSearch::gains_of(const State& state, const CaseSet& cases, Kinds ki
     return gains &= cases;
 }
 
-/// How many things are decided in `cases`: a next step, outputs, a preset.
+/// Number of decisions in `cases`: next steps, outputs, presets.
 std::size_t LabelSearch::worth(const State& state, const CaseSet& cases, Kinds kind) const {
     const auto count = [&](CaseSet open) { return (open &= cases).size(); };
     std::size_t total = count(state.outputs);
@@ -121,7 +121,7 @@ std::size_t LabelSearch::worth(const State& state, const CaseSet& cases, Kinds k
     return total;
 }
 
-/// Leaves the candidates, those that decide most first, for which no other decides all that they do.
+/// Keeps the candidates that are not dominated, those that decide most first.
 void LabelSearch::remove_dominated(std::vector<Candidate>& list) const {
     std::vector<std::uint32_t> order(list.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -173,7 +173,7 @@ void LabelSearch::place(State& state, const Region& region, Kinds kind, const Or
     path_.push_back(term);
 }
 
-/// Places every order whose term may carry what its cases still want.
+/// Places every order whose term may have what its cases still need.
 void LabelSearch::place_items(State& state) {
     bool changed = true;
     while (changed && state.left != 0) {

@@ -45,7 +45,7 @@ OpenLayout::OpenLayout(const ReducedStep& half) {
 
 namespace {
 
-constexpr std::size_t kWorkForOrders = 100'000;  // cubes looked at
+constexpr std::size_t kWorkForOrders = 100'000;  // cubes examined
 constexpr std::size_t kWorkInAll = 300'000;
 constexpr std::size_t kRemembered = 1'024;
 constexpr std::size_t kShallow = 2;
@@ -111,7 +111,7 @@ std::optional<std::vector<PlacedTerm>> LabelSearch::run(std::size_t limit) {
     return result();
 }
 
-/// Whether some number of terms from `first` on does; the first that does is the least.
+/// Whether some number of terms from `first` on is enough; the first such number is the minimum.
 bool LabelSearch::search_up_to(const State& state, std::size_t first, std::size_t last) {
     for (std::size_t most = first; most <= last && most < best_used_ && work_ <= most_work_; ++most) {
         failed_.assign(kRemembered, {0, 0});
@@ -127,7 +127,7 @@ bool LabelSearch::is_done(const State& state) const {
     return done;
 }
 
-/// Every next step, output byte and preset that no order can bring along takes a term.
+/// Lower bound: every next step, output byte and preset that no order can carry takes a term.
 std::size_t LabelSearch::bound(const State& state) const {
     CaseSet open = state.nexts;
     open |= state.timers;
@@ -146,7 +146,7 @@ void LabelSearch::keep(std::size_t used) {
     best_used_ = used;
 }
 
-/// What each next step, in any order of them, takes when its cases are decided one after the other.
+/// Tries all orders of the next steps, deciding the cases of one next step after the other.
 void LabelSearch::try_orders(const State& state, std::uint32_t classes, std::size_t used) {
     if (is_done(state)) {
         if (used < best_used_) keep(used);
@@ -163,8 +163,8 @@ void LabelSearch::try_orders(const State& state, std::uint32_t classes, std::siz
     }
 }
 
-/// Takes the region that decides most in `cases` as long as there is one. What may stand next changes only
-/// with what is decided elsewhere.
+/// Repeatedly takes the region that decides most in `cases`. The candidates change only with decisions
+/// elsewhere.
 std::size_t LabelSearch::cover_class(State& state, const CaseSet& cases, std::size_t used) {
     std::vector<Candidate> list = candidates(state);
     while (used < best_used_ && !is_done(state)) {
@@ -193,7 +193,7 @@ const LabelSearch::Candidate* LabelSearch::most_in(const State& state, const Cas
     return best;
 }
 
-/// Whether at most `most` further terms do; deeper and deeper, so the first answer is the least.
+/// Whether at most `most` further terms are enough; iterative deepening, so the first solution is minimal.
 bool LabelSearch::search(const State& state, std::size_t most, std::size_t depth) {
     if (is_done(state)) {
         keep(depth);
@@ -220,7 +220,7 @@ bool LabelSearch::search(const State& state, std::size_t most, std::size_t depth
     return false;
 }
 
-/// All that is demanded lies in one region; the smallest one is the likeliest to be of one kind.
+/// All demanded cases are in one region; the smallest such region is most likely uniform.
 bool LabelSearch::finish_with_one(const State& state) {
     std::size_t all = half_.cases() - 1;
     std::size_t any = 0;
@@ -261,8 +261,8 @@ bool LabelSearch::failed_before(const State& state, std::size_t most, bool remem
     return slot.first == hash && slot.second >= most;
 }
 
-/// The terms in table order. A term that names its own step as the next need not, unless it takes that of a
-/// term before it back.
+/// The terms in table order. A term with its own step as the next one is omitted unless it cancels that of an
+/// earlier term.
 std::vector<PlacedTerm> LabelSearch::result() const {
     std::vector<PlacedTerm> terms = best_;
     std::vector<std::uint8_t> decided(half_.cases());

@@ -13,17 +13,17 @@
 
 namespace nplc::seqc {
 
-/// What is still open in a case, a bit for each next step, output byte, timer value and counter value.
+/// The open decisions of a case, one bit per next step, output byte, timer value and counter value.
 using OpenBits = std::uint64_t;
 
 inline bool at_most_one(OpenBits bits) {
     return (bits & (bits - 1)) == 0;
 }
 
-/// A term as the search places it, from the last term of the table to the first.
+/// A term in the order of the search, from the last term of the table to the first.
 struct PlacedTerm {
     Region region;
-    const OrderTerm* order = nullptr;  ///< in the plan; none: it sends nothing
+    const OrderTerm* order = nullptr;  ///< in the plan; null: it sends nothing
     std::uint8_t next = 0;
     std::uint8_t output_byte = 0;
     Preset preset = Preset::none;
@@ -31,21 +31,21 @@ struct PlacedTerm {
     bool names_next = true;
 };
 
-/// Which bit of OpenBits stands for what in one reduced step.
+/// The meaning of the bits of OpenBits in one reduced step.
 class OpenLayout {
   public:
     explicit OpenLayout(const ReducedStep& half);
 
     bool fits() const { return fits_; }
     OpenBits wanted(std::size_t behaviour) const { return wanted_[behaviour]; }
-    /// The part of `wanted` without which the case is wrong.
+    /// The part of `wanted` that is required for a correct case.
     OpenBits demanded(std::size_t behaviour) const { return demanded_[behaviour]; }
 
     OpenBits nexts = 0;
     OpenBits outputs = 0;
     OpenBits timers = 0;
     OpenBits counters = 0;
-    OpenBits no_timer = 0;  ///< set in cases that want no timer preset, and never cleared
+    OpenBits no_timer = 0;  ///< set in cases without a timer preset, and never cleared
     OpenBits no_counter = 0;
 
   private:
@@ -58,20 +58,21 @@ class OpenLayout {
     std::vector<OpenBits> demanded_;
 };
 
-/// Finds the fewest terms without an order that, together with those of a plan, do what a reduced step wants.
+/// Finds the minimum number of terms without an order that, together with a plan's terms, implement a reduced
+/// step.
 ///
-/// Works from the last term of the table to the first: a case is open until a term that holds in it decides
-/// it, and a term may hold wherever all that is still open wants the same (001 §6.1.9: the last true term
-/// decides). A term of the plan is placed as soon as it may be: it costs nothing more.
+/// Works from the last term of the table to the first: a case is open until a term that is true in it decides
+/// it, and a term may be true wherever all open decisions are the same (001 §6.1.9: the last true term
+/// decides). A term of the plan is placed as soon as possible, since it has no further cost.
 class LabelSearch {
   public:
     LabelSearch(const ReducedStep& half, const OrderPlan& plan);
 
-    /// No table with the orders of the plan has fewer terms without an order.
+    /// Lower bound of the number of terms without an order for this plan.
     std::size_t fewest() const { return bound(start_); }
 
     /// All terms in table order, at most `limit` of them without an order; `order` points into the plan.
-    /// Nothing if there are none, or none are found within a fixed number of steps.
+    /// Empty if there is no solution, or none is found within a fixed number of steps.
     std::optional<std::vector<PlacedTerm>> run(std::size_t limit);
 
   private:
@@ -79,7 +80,7 @@ class LabelSearch {
     struct Item {
         const OrderTerm* term;
         CaseSet cases;
-        std::vector<std::uint32_t> after;  // items with a case of this one that come later in the plan
+        std::vector<std::uint32_t> after;  // items with a case of this one that are later in the plan
     };
     struct State {
         std::vector<OpenBits> open;  // by case
@@ -135,10 +136,10 @@ class LabelSearch {
     bool unnamed_help_ = false;
     std::vector<Item> items_;
     std::vector<OpenBits> demanded_;  // by case
-    std::vector<CaseSet> classes_;    // cases that share next step and outputs
+    std::vector<CaseSet> classes_;    // cases with the same next step and outputs
     State start_;
 
-    std::vector<OpenBits> masks_;  // by zeros and cube: all that is open in it
+    std::vector<OpenBits> masks_;  // by zeros and cube: all open bits in it
     std::vector<Kinds> kinds_;
     std::vector<PlacedTerm> path_;  // the last term of the table first
     std::vector<PlacedTerm> best_;

@@ -73,7 +73,7 @@ constexpr std::size_t kMostCubes = 243;
 constexpr unsigned kMemoBits = 15;
 constexpr std::size_t kMostNodes = 20'000;
 
-/// What was found to take more than a number of cubes.
+/// Cache of sets that are known to need more than a number of cubes.
 class Failures {
   public:
     bool has(SmallSet set, std::size_t most) const {
@@ -96,9 +96,9 @@ class Failures {
     std::vector<Slot> slots_;
 };
 
-/// From the last cube of the list to the first: a cube may be next if all open cases in it are in, or all are
-/// out. Placing one never takes anything away. So where one did not lead to a list, no list goes on from
-/// there with it, nor with one that decides a part of its cases.
+/// From the last cube of the list to the first: a cube may be next if its open cases are all in or all out.
+/// Placing one never removes options. So if a cube did not lead to a list, no list continues from there with
+/// it, nor with one that decides a subset of its cases.
 class ListSearch {
   public:
     ListSearch(SmallSet set, const SmallCubes& cubes) : set_(set), cubes_(cubes) {}
@@ -158,7 +158,7 @@ class ListSearch {
         return false;
     }
 
-    /// An "out" behind the cube around all that is in, or two that are in.
+    /// An "out" cube behind the cube around all "in" cases, or two "in" cubes.
     bool finish_with_two(SmallSet in, SmallSet out, std::size_t whole, SmallSet wrong) {
         const std::size_t around_wrong = cubes_.index_around(wrong);
         if ((cubes_.list()[around_wrong].cases & in) == 0)
@@ -178,8 +178,7 @@ class ListSearch {
                            [decides](SmallSet failed) { return (decides & ~failed) == 0; });
     }
 
-    /// The widest that may be next, those that decide most first, none that decides a part of another's
-    /// cases.
+    /// The maximal candidates, those that decide most first, none that decides a subset of another's cases.
     void list_moves(SmallSet open, Moves& moves) const {
         const SmallSet in = open & set_;
         const SmallSet out = open & ~set_;
@@ -246,7 +245,8 @@ class SlotSearch {
     std::vector<const SmallCubes::Entry*> take() { return std::move(path_); }
 
   private:
-    /// Cases no two of which lie in one cube inside `set`: each takes a cube of its own.
+    /// Finds an independent set: cases of which no two are in one cube inside `set`, so each needs its own
+    /// cube.
     void find_strangers(SmallSet set) {
         for (SmallSet rest = set; rest != 0; rest &= rest - 1) {
             const SmallSet one = rest & -rest;
@@ -257,7 +257,7 @@ class SlotSearch {
         }
     }
 
-    /// The open case that the fewest open cubes hold.
+    /// The open case contained in the fewest open cubes.
     SmallSet loneliest(SmallSet open) const {
         std::array<std::uint8_t, 32> held{};
         for (const SmallCubes::Entry& cube : cubes_.list()) {

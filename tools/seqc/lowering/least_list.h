@@ -7,11 +7,11 @@
 
 namespace nplc::seqc {
 
-/// Cases over at most five variables, a bit each.
+/// A bit set of cases over at most five variables.
 using SmallSet = std::uint32_t;
 
-/// All cubes over up to five variables. The last of these may be zeros of timer and counter: no term tests
-/// that one has not come.
+/// All cubes over up to five variables. The last ones may be the zero flags of timer and counter: no term can
+/// test for "not zero".
 class SmallCubes {
   public:
     static constexpr std::size_t kMostVariables = 5;
@@ -25,10 +25,10 @@ class SmallCubes {
 
     static const SmallCubes& of(std::size_t variables, std::size_t zeros);
 
-    /// Wide ones first.
+    /// Largest first.
     const std::vector<Entry>& list() const { return list_; }
     SmallSet all() const { return list_.front().cases; }
-    /// The smallest cube that holds `cases`, of which there must be one.
+    /// The smallest cube that contains `cases`, which must not be empty.
     const Entry& around(SmallSet cases) const { return list_[index_around(cases)]; }
     std::size_t index_around(SmallSet cases) const;
 
@@ -46,12 +46,12 @@ struct ListedCube {
     bool in = false;
 };
 
-/// Fewest cubes in a list of which the last that holds a case says whether it is in `set`; a case that none
-/// holds is out. Exact up to a bound on the search. Empty if there is none of fewer than `fewer_than`.
+/// Minimum list of cubes in which the last one that contains a case decides whether it is in `set`; a case in
+/// none is out. Exact up to a search limit. Empty if there is none of fewer than `fewer_than`.
 std::vector<ListedCube> least_list(SmallSet set, const SmallCubes& cubes, std::size_t fewer_than);
 
-/// Fewest cubes that hold each case of `set` once and no other. Exact. Empty if there are none of fewer than
-/// `fewer_than`. `cubes` without zeros.
+/// Minimum partition of `set` into cubes. Exact. Empty if there is none of fewer than `fewer_than`. `cubes`
+/// must be without zero flags.
 std::vector<const SmallCubes::Entry*> least_partition(SmallSet set, const SmallCubes& cubes,
                                                       std::size_t fewer_than);
 

@@ -10,7 +10,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// `plain` with the terms of each reduced step in a shorter form where there is one.
+/// `plain` with the terms of each reduced step replaced by a shorter form where there is one.
 std::vector<LoweredTerm> shortened(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                    const std::vector<LoweredTerm>& plain) {
     const std::size_t made = plain.size() - step.terms.size();

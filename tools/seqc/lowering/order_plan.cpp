@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostBranches = 32;
 constexpr std::size_t kMostToMerge = 12;
-constexpr std::size_t kMostInEveryWay = 4;  // branches for which all ways to share are tried
+constexpr std::size_t kMostInEveryWay = 4;  // branches up to which all ways to share are tried
 constexpr std::size_t kImpossible = SIZE_MAX / 4;
 
 class Planner {
@@ -40,7 +40,7 @@ class Planner {
     }
 
   private:
-    /// Every way to put the branches from `next` on into groups that share.
+    /// Tries every grouping of the branches from `next` on.
     void every_way(std::size_t next, std::vector<Branches>& groups) {
         if (next == branches_.size()) {
             add_way(groups);
@@ -58,7 +58,7 @@ class Planner {
         groups.pop_back();
     }
 
-    /// Joins the two groups for which that saves most, again and again.
+    /// Greedy: repeatedly merges the two groups with the largest saving.
     void merge_step_by_step(std::vector<Branches> groups) {
         while (groups.size() > 1) {
             std::size_t best_saving = 0;
@@ -89,7 +89,7 @@ class Planner {
         return false;
     }
 
-    /// Which other branches have an order of this one.
+    /// Finds the branches with a common order.
     void find_common_orders() {
         common_.assign(branches_.size(), 0);
         for (std::size_t a = 0; a < branches_.size(); ++a) {
@@ -128,7 +128,7 @@ class Planner {
         }
     }
 
-    /// A case that wants both presets and has one FastMAC order: either may ride.
+    /// A case that needs both presets and has one FastMAC order, which can carry either.
     bool needs_choice(const OrderPlan& plan) const {
         for (std::size_t c = 0; c < half_.cases(); ++c) {
             const Behaviour& wanted = half_.at(c);
@@ -158,7 +158,7 @@ class Planner {
         return plan;
     }
 
-    /// Whether all cases of the term want the same preset and some have it from no term before.
+    /// Whether all cases of the term need the same preset and some have not got it from an earlier term.
     bool ride(const OrderTerm& term, bool timer, std::vector<std::uint8_t>& carried) const {
         const std::uint8_t bit = timer ? 1 : 2;
         std::uint16_t value = 0;
@@ -180,9 +180,9 @@ class Planner {
     const ReducedStep& half_;
     Sharing sharing_;
     const std::vector<Branch>& branches_;
-    std::vector<Branches> common_;  // by branch: the others that have an order of it
+    std::vector<Branches> common_;  // by branch: the others with a common order
     std::vector<Way> ways_;
-    std::size_t apart_ = SIZE_MAX;  // terms where no branches share; then sharing must save some
+    std::size_t apart_ = SIZE_MAX;  // number of terms without sharing; sharing must save some
 };
 
 }  // namespace

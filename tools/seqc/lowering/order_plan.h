@@ -7,8 +7,8 @@
 
 namespace nplc::seqc {
 
-/// The reduced cases of a reduced step that one term can hold in: inputs under `care` equal `value`, and
-/// every zero of `zeros` (bit 0 the first one of the step) has come.
+/// The reduced cases in which one term can be true: inputs under `care` equal `value`, and every zero flag of
+/// `zeros` (bit 0 the first one of the step) is set.
 struct Region {
     std::uint8_t value = 0;
     std::uint8_t care = 0;
@@ -21,19 +21,18 @@ struct Region {
 
 enum class Preset : std::uint8_t { none, timer, counter };
 
-/// A term that sends. Orders of one case stand in the order of the list.
+/// A term with an order. Orders of one case are in the order of the list.
 struct OrderTerm {
     Region region;
     const Send* send = nullptr;
-    Preset preset = Preset::none;  ///< what rides on it
+    Preset preset = Preset::none;  ///< the preset carried by it
     bool is_fast() const { return send->reg == nullptr; }
 };
 
 using OrderPlan = std::vector<OrderTerm>;
 
-/// Ways to send everything that the reduced step must send, in every case once and in order; the shortest
-/// first, at least one if a table can do it at all. They differ in which branches share a term for the same
-/// order.
+/// Ways to send all orders of the reduced step, in every case once and in order; the shortest first, at least
+/// one if a table can do it at all. They differ in which branches share a term for the same order.
 std::vector<OrderPlan> order_plans(const ReducedStep& half);
 
 }  // namespace nplc::seqc

@@ -19,7 +19,7 @@ bool is_disjoint(const std::vector<Cube>& cubes) {
     return true;
 }
 
-/// The smallest tree of questions whose leaves are all in or all out of `need`.
+/// The smallest decision tree whose leaves are all in or all out of `need`.
 class Tree {
   public:
     Tree(const Points& need, std::size_t variables)
@@ -75,10 +75,10 @@ class Tree {
 
     const Ternary& cubes_;
     std::vector<Node> nodes_;
-    std::vector<std::uint8_t> missing_;  // by cube: whether a point of it is not needed
+    std::vector<std::uint8_t> missing_;  // by cube: whether one of its points is not needed
 };
 
-/// Looks for fewer disjoint cubes than a first answer has, down to a number that no answer goes below.
+/// Searches for fewer disjoint cubes than an initial solution, down to a lower bound.
 class PartitionSearch {
   public:
     PartitionSearch(std::vector<Cube> first, std::size_t least, std::size_t variables)
@@ -92,7 +92,8 @@ class PartitionSearch {
     }
 
   private:
-    /// Points no two of which lie in one cube inside `need`: each takes a cube of its own.
+    /// Finds an independent set: points of which no two are in one cube inside `need`, so each needs its own
+    /// cube.
     void find_strangers(const Points& need) {
         for (unsigned a = 0; a <= last_; ++a) {
             if (!need.test(a)) continue;
@@ -116,7 +117,7 @@ class PartitionSearch {
 
     bool lies_in(Cube cube, const Points& set) const { return (cut(cube) & ~set).none(); }
 
-    /// All cubes inside `open` that hold the point of `cube`, widening it by `variable` and those above it.
+    /// All cubes inside `open` that contain the point of `cube`, extended by `variable` and those above it.
     void widen(Cube cube, const Points& points, unsigned variable, const Points& open,
                std::vector<Cube>& cubes) const {
         cubes.push_back(cube);
@@ -130,7 +131,7 @@ class PartitionSearch {
         }
     }
 
-    /// Widest first.
+    /// Largest first.
     std::vector<Cube> cubes_with(unsigned point, const Points& open) const {
         std::vector<Cube> cubes;
         const Cube alone{static_cast<std::uint8_t>(point), static_cast<std::uint8_t>(last_)};
@@ -140,7 +141,7 @@ class PartitionSearch {
         return cubes;
     }
 
-    /// The open point with the fewest open neighbours: few cubes hold it.
+    /// The open point with the fewest open neighbours: it is in few cubes.
     unsigned loneliest(const Points& open) const {
         unsigned best = 0;
         int fewest = 8;
@@ -177,7 +178,7 @@ class PartitionSearch {
     int steps_ = 0;
 };
 
-/// The least number, over few variables; `least` is one that no answer goes below.
+/// The minimum over few variables; `least` is a lower bound.
 void shorten_small(std::vector<Cube>& cubes, const Points& need, std::size_t least, std::size_t variables) {
     if (cubes.size() == least) return;
     const auto set = static_cast<SmallSet>((need & Points(0xFFFFFFFFU)).to_ulong());

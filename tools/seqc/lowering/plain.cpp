@@ -14,7 +14,7 @@ using sequencer::Condition;
 
 constexpr int kNobody = -1;
 
-/// What may be done to the counter: nothing, clear, count down, both.
+/// The operations on the counter: none, clear, count down, both.
 const std::array<Action, 4> kCounting = [] {
     std::array<Action, 4> actions;
     for (std::size_t i = 0; i < actions.size(); ++i) {
@@ -24,8 +24,8 @@ const std::array<Action, 4> kCounting = [] {
     return actions;
 }();
 
-/// Timer and counter zero as a layer: bit 0 the timer, bit 1 the counter. A term of a layer also holds in
-/// every layer that has at least its bits.
+/// Zero flags of timer and counter as a layer: bit 0 the timer, bit 1 the counter. A term of a layer is also
+/// true in every layer with at least its bits.
 enum Layer : std::size_t { kNeither, kTimer, kCounter, kBoth, kLayers };
 
 std::size_t case_of(std::size_t point, bool error, std::size_t layer) {
@@ -67,14 +67,14 @@ class Lowering {
         return terms;
     }
 
-    /// Something would have to be taken back that cannot.
+    /// An effect would have to be cancelled that cannot be.
     bool failed() const { return failed_; }
 
   private:
     Effect& effect(int index) { return effects_.list[static_cast<std::size_t>(index)]; }
     bool is_hard(int index) { return index != kNobody && effect(index).is_hard(); }
 
-    /// Without a test for a zero the terms of the lowest layer act in the others as well.
+    /// Without a zero test the terms of the lowest layer act in the others as well.
     bool needs_zeros() const {
         const auto changes = [](const auto& by_case) {
             const std::size_t layer = kCases / kLayers;
@@ -84,7 +84,8 @@ class Lowering {
     }
 
     void place_zeros() {
-        // What cannot be undone also holds when both are zero, so it stands behind what can.
+        // Effects that cannot be cancelled are also true when both are zero, so they come after those that
+        // can.
         place_undoable(kTimer);
         place_undoable(kCounter);
         place_firm(kTimer);
@@ -92,8 +93,8 @@ class Lowering {
         place_layer(kBoth);
     }
 
-    /// Outputs that follow inputs. They come first, so that whatever else happens overrides them. The order
-    /// among them is free: the shortest result is kept.
+    /// Outputs that depend on inputs. They come first, so that everything else overrides them. Their order is
+    /// free: the shortest result is kept.
     void place_outputs() {
         std::vector<int> order;
         for (int i = 0; i < static_cast<int>(effects_.list.size()); ++i) {
@@ -182,8 +183,8 @@ class Lowering {
         for (Cube cube : cubes) place(index, cube, error, layer);
     }
 
-    /// Cases in which a term of a lower layer switches although nothing should happen: "go to this step"
-    /// undoes it.
+    /// Cases in which a term of a lower layer changes the step although nothing should happen: "next = this
+    /// step" cancels it.
     void place_stays(bool error, std::size_t layer) {
         std::array<Points, 16> need;
         for (std::size_t point = 0; point < kPoints; ++point) {
@@ -214,7 +215,7 @@ class Lowering {
 
     bool leaves(const Effect& effect) const { return effect.next() && *effect.action->next != step_.number; }
 
-    /// What must be written in a case: outputs in bits 0..3, what the action does to the counter above them.
+    /// What must be written in a case: outputs in bits 0..3, the action on the counter above them.
     static unsigned counting(const Effect& effect) {
         const Action* action = effect.action;
         return action == nullptr ? 0U : (action->clears_counter ? 1U : 0U) + (action->counts_down ? 2U : 0U);
@@ -228,7 +229,8 @@ class Lowering {
         return owner.outputs + counting(owner) * 16U;
     }
 
-    /// Terms that only write, where a timer or counter at zero changes the outputs beside what is sent.
+    /// Terms that only write outputs, where a timer or counter at zero changes the outputs besides the
+    /// orders.
     void mend_outputs() {
         const std::size_t layers = needs_zeros() ? kLayers : kNeither + 1;
         for (std::size_t layer = kNeither; layer < layers; ++layer) {
@@ -258,13 +260,13 @@ class Lowering {
         }
     }
 
-    /// Effect `index`, which has no next step of its own, must name one where another effect held before it.
+    /// Effect `index`, which has no next step of its own, must name one where an earlier effect is true too.
     void take_over(int index, int owner) {
         override_owner(owner);
         if (!effect(index).next()) effect(index).stays = true;
     }
 
-    /// Later terms take cases from an effect.
+    /// Later terms override an effect in some cases.
     void override_owner(int index) { failed_ = failed_ || effect(index).cannot_be_undone(); }
 
     void place(int index, Cube cube, bool error, std::size_t layer) {

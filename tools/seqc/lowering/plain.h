@@ -6,7 +6,8 @@
 
 namespace nplc::seqc {
 
-/// The terms of a step, each branch by itself: what `lower` starts from. Raw terms of the step come last.
+/// The terms of a step, each branch separately: the starting point of `lower`. Raw terms of the step come
+/// last.
 std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
 
 }  // namespace nplc::seqc

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kHalfBits = kBits - 1;
 using Wanted = std::array<std::uint16_t, kCases / 2>;  // by case without the bit of ERROR
 
-/// The bit of a case that is bit `k` of a case without ERROR.
+/// The bit of a case for bit `k` of a case without ERROR.
 std::size_t bit_of(std::size_t k) {
     return k < kErrorBit ? k : k + 1;
 }
@@ -29,7 +29,7 @@ Behaviour behaviour_of(const StepPlan& step, const Action* action, std::uint8_t 
     return result;
 }
 
-/// The behaviours that occur, and which of them each case wants.
+/// Collects the behaviours, and which of them each case has.
 class Sorter {
   public:
     Sorter(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of)

@@ -10,10 +10,10 @@
 
 namespace nplc::seqc {
 
-/// What must happen in one case.
+/// The required behaviour in one case.
 struct Behaviour {
-    const Action* action = nullptr;  ///< none: nothing but outputs
-    std::uint8_t next = 0;           ///< the step in which the scan ends
+    const Action* action = nullptr;  ///< null: outputs only
+    std::uint8_t next = 0;           ///< the step at the end of the scan
     std::uint8_t outputs = 0;
     bool leaves = false;
     bool writes = false;  ///< outputs or counter bits must be written
@@ -23,7 +23,7 @@ struct Behaviour {
     std::uint16_t counter() const {
         return action != nullptr ? action->counter.value_or(0) : std::uint16_t{0};
     }
-    /// Outputs and counter bits as a FastMAC-format term writes them (byte OUTPUT of 001 §6.1.7).
+    /// Outputs and counter bits as written by a FastMAC-format term (byte OUTPUT of 001 §6.1.7).
     std::uint8_t output_byte() const;
     std::size_t sends() const { return action != nullptr ? action->sends.size() : 0; }
 };
@@ -34,7 +34,7 @@ struct ReducedStep {
     bool error = false;
     const StepPlan* step = nullptr;
     std::vector<std::uint8_t> bits;  ///< of truth.h, ascending
-    std::size_t inputs = 0;          ///< how many of `bits` are inputs or IN_POS; the rest are zeros
+    std::size_t inputs = 0;          ///< number of `bits` that are inputs or IN_POS; the rest are zero flags
     std::vector<Behaviour> behaviours;
     std::vector<std::uint16_t> wanted;  ///< index into `behaviours`, by reduced case
 

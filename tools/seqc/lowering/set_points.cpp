@@ -8,7 +8,7 @@ namespace {
 
 using set_points::ValueKind;
 
-/// Kind and register: what a value is of.
+/// Kind and register of a value.
 using Target = std::pair<ValueKind, std::uint8_t>;
 
 Target target_of(const DeclaredSetPoint& declared) {
@@ -72,7 +72,7 @@ SetPointMarks::SetPointMarks(const Plan& plan, const std::vector<DeclaredSetPoin
     }
 }
 
-/// Neither 0, which presets nothing, nor what something else has.
+/// A value other than 0, which presets nothing, and not used elsewhere.
 std::uint32_t SetPointMarks::free_value(const DeclaredSetPoint& declared) const {
     constexpr std::uint32_t kHighest = 0xFFFF;
     const std::set<std::uint32_t> used = used_values(marked_, target_of(declared));

@@ -7,18 +7,18 @@
 #include "semantics/model.h"
 #include "semantics/scope.h"
 
-/// Where in a table the values of set-points lie. While terms are made, each has a value that nothing else in
-/// the program has, so that no term of it is shared with another one's or with a constant's.
+/// The places of set-point values in a table. While terms are generated, each has a unique marker value, so
+/// that its terms are not shared with those of another set-point or a constant.
 namespace nplc::seqc {
 
 class SetPointMarks {
   public:
     SetPointMarks(const Plan& plan, const std::vector<DeclaredSetPoint>& points);
 
-    /// The plan with a mark in place of each set-point's value. The plan it was made from must stay alive.
+    /// The plan with a marker in place of each set-point's value. The original plan must stay valid.
     const Plan& plan() const { return marked_; }
 
-    /// Puts the defaults into terms that were made from plan(), and notes their numbers in `points`.
+    /// Puts the defaults into terms generated from plan(), and stores their numbers in `points`.
     void place(std::vector<LoweredTerm>& terms, std::vector<set_points::SetPoint>& points) const;
 
   private:
@@ -30,7 +30,7 @@ class SetPointMarks {
     std::vector<std::uint32_t> marks_;
 };
 
-/// What goes with the table: the set-points that something uses, and the steps that take changed values.
+/// The record for the table: the set-points in use, and the steps that take changed values.
 set_points::Record record_of(const Plan& plan, const std::vector<DeclaredSetPoint>& declared,
                              const std::vector<set_points::SetPoint>& placed);
 

@@ -9,7 +9,7 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kMostWork = 65'536;
-constexpr std::size_t kTerm = 10'000;  // of a cost; the rest only decides between equals
+constexpr std::size_t kTerm = 10'000;  // unit of a cost; smaller parts only break ties
 constexpr std::size_t kClash = 100;
 
 }  // namespace
@@ -62,7 +62,7 @@ const std::optional<Way>& Sharing::align(Branches group, bool own_ends) {
     return found->second;
 }
 
-/// Whether branches of `set` that go on differently have their last FastMAC order here, which carries the
+/// Whether branches of `set` with different next steps have their last FastMAC order here, which carries the
 /// next step.
 bool Sharing::ends_clash(Branches set, const std::vector<std::size_t>& positions) const {
     const Behaviour* first = nullptr;
@@ -75,7 +75,7 @@ bool Sharing::ends_clash(Branches set, const std::vector<std::size_t>& positions
     return false;
 }
 
-/// The order that all branches of `pick` send next.
+/// The next order common to all branches of `pick`.
 std::optional<Column> Sharing::column_of(std::uint32_t pick, const std::vector<std::size_t>& members,
                                          const std::vector<std::size_t>& positions) const {
     Column column;
@@ -91,7 +91,7 @@ std::optional<Column> Sharing::column_of(std::uint32_t pick, const std::vector<s
     return column;
 }
 
-/// A state is how many orders of each member are sent, as one number.
+/// A state encodes how many orders of each member are sent, as one number.
 void Sharing::extend(std::size_t state, const std::vector<std::size_t>& members, bool own_ends,
                      std::vector<Best>& best) {
     std::vector<std::size_t> positions(branches_.size());

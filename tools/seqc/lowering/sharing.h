@@ -11,7 +11,7 @@
 
 namespace nplc::seqc {
 
-using Branches = std::uint32_t;  ///< a set of branches that send
+using Branches = std::uint32_t;  ///< a bit set of branches with orders
 
 struct Branch {
     std::uint16_t behaviour = 0;
@@ -19,7 +19,7 @@ struct Branch {
     std::size_t last_fast = 0;  ///< position of its last FastMAC order + 1; 0: none
 };
 
-/// Terms that send one order for some branches.
+/// Terms that send one order for several branches.
 struct Column {
     Branches branches = 0;
     const Send* send = nullptr;
@@ -28,10 +28,10 @@ struct Column {
 struct Way {
     std::vector<Column> columns;
     std::size_t terms = 0;
-    bool shares = false;  ///< some branches have a group in common
+    bool shares = false;  ///< some branches are in a common group
 };
 
-/// How branches of a reduced step can send with terms in common.
+/// How branches of a reduced step can send orders with shared terms.
 class Sharing {
   public:
     using Regions = std::optional<std::vector<Region>>;
@@ -40,17 +40,17 @@ class Sharing {
 
     const std::vector<Branch>& branches() const { return branches_; }
 
-    /// Disjoint regions that hold the cases of these branches; none where the table cannot tell them apart.
+    /// Disjoint regions that contain the cases of these branches; empty if the table cannot distinguish them.
     const Regions& regions(Branches set);
 
-    /// The columns in which the branches of `group` send their orders with the fewest terms; nothing if that
-    /// cannot be, or is too much to look for. With `own_ends` the last FastMAC order of a branch is not
-    /// shared with that of one that goes on differently, since it carries the next step.
+    /// The columns in which the branches of `group` send their orders with the fewest terms; empty if that is
+    /// not possible or the search is too large. With `own_ends` the last FastMAC order of a branch is not
+    /// shared with branches that have another next step, since it carries the next step.
     const std::optional<Way>& align(Branches group, bool own_ends);
 
   private:
     struct Best {
-        std::size_t cost = SIZE_MAX;  // terms, and less where fewer branches share
+        std::size_t cost = SIZE_MAX;  // terms; lower if fewer branches share
         std::size_t from = 0;
         Column column;
     };
@@ -68,7 +68,7 @@ class Sharing {
 
     const ReducedStep& half_;
     std::vector<Branch> branches_;
-    std::vector<Branches> sender_;  // by behaviour: the branch that it is, or none
+    std::vector<Branches> sender_;  // by behaviour: its branch, or none
     std::map<Branches, Regions> regions_;
     std::map<std::pair<Branches, bool>, std::optional<Way>> aligned_;
 };

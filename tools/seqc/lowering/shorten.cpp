@@ -11,7 +11,7 @@ namespace {
 using sequencer::Condition;
 using sequencer::Term;
 
-/// Spreads the bits of a reduced case over those of truth.h.
+/// Maps the bits of a reduced case to those of truth.h.
 std::size_t spread(std::size_t reduced, const ReducedStep& half, std::size_t first, std::size_t last) {
     std::size_t result = 0;
     for (std::size_t i = first; i < last; ++i) result |= ((reduced >> (i - first)) & 1U) << half.bits[i];
@@ -30,7 +30,7 @@ Condition condition_of(const Region& region, const ReducedStep& half) {
     };
 }
 
-/// Where in the source the behaviour of the first case in the region stands.
+/// Source position of the behaviour of the first case in the region.
 Span span_of(const PlacedTerm& placed, const ReducedStep& half) {
     if (placed.order != nullptr) return placed.order->send->span;
     for (std::size_t c = 0; c < half.cases(); ++c) {
@@ -61,7 +61,7 @@ LoweredTerm lowered(const PlacedTerm& placed, const ReducedStep& half) {
     return {sequencer::encode(term), span_of(placed, half)};
 }
 
-/// What all cases do that do not stay as they are, if that is one switch without orders and presets.
+/// The common behaviour of all cases that do not stay, if it is one step change without orders and presets.
 const Behaviour* only_switch(const ReducedStep& half) {
     const Behaviour* only = nullptr;
     for (const Behaviour& behaviour : half.behaviours) {
@@ -74,7 +74,7 @@ const Behaviour* only_switch(const ReducedStep& half) {
     return only;
 }
 
-/// The terms of a reduced step that is one switch over few variables; empty if there are none of fewer.
+/// The terms of a reduced step that is one step change over few variables; empty if there are none of fewer.
 std::vector<LoweredTerm> least_switch(const ReducedStep& half, std::size_t fewer_than) {
     const Behaviour* wanted = only_switch(half);
     if (wanted == nullptr || half.bits.size() > SmallCubes::kMostVariables) return {};

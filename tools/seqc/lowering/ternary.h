@@ -10,8 +10,8 @@
 
 namespace nplc::seqc {
 
-/// All cubes over some variables, narrow ones before the wider ones that hold them. The index is a number in
-/// base three with a digit for each variable: 0, 1, or 2 for open.
+/// All cubes over some variables, smaller ones before the larger ones that contain them. The index is a
+/// ternary number with one digit per variable: 0, 1, or 2 for don't care.
 class Ternary {
   public:
     static constexpr std::size_t kMostVariables = 7;
@@ -26,11 +26,10 @@ class Ternary {
     std::size_t variables() const { return steps_.size(); }
     std::size_t size() const { return entries_.size(); }
     const Entry& operator[](std::size_t index) const { return entries_[index]; }
-    /// The cube that is one point, by the point's number.
+    /// The cube of a single point, by the point's number.
     std::size_t point(std::size_t number) const { return points_[number]; }
 
-    /// From what `by_cube` holds for the points to what it holds for all cubes, each the union (|) of its
-    /// points.
+    /// Extends `by_cube` from the points to all cubes: each cube gets the union (|) of its points.
     template <class T>
     void unite(T* by_cube) const {
         for (const Block& block : blocks_) {
@@ -41,7 +40,7 @@ class Ternary {
         }
     }
 
-    /// Takes from each cube's bits in `by_cube` those that `given` has for a cube wider by one variable.
+    /// Removes from each cube's bits in `by_cube` those that `given` has for a cube larger by one variable.
     template <class T>
     void remove_wider(const T* given, T* by_cube) const {
         for (const std::size_t step : steps_) {
@@ -55,7 +54,7 @@ class Ternary {
         }
     }
 
-    /// The half of the cube, in which `variable` is open, where it is `one`.
+    /// The half of the cube, in which `variable` is don't care, where it is `one`.
     std::size_t half(std::size_t index, std::size_t variable, bool one) const {
         return index - (one ? 1U : 2U) * steps_[variable];
     }
@@ -63,7 +62,7 @@ class Ternary {
     explicit Ternary(std::size_t variables);
 
   private:
-    struct Block {  // cubes in a row whose highest open variable is the same one
+    struct Block {  // consecutive cubes with the same highest don't-care variable
         std::size_t begin;
         std::size_t length;
     };
@@ -73,7 +72,8 @@ class Ternary {
     std::vector<Entry> entries_;
 };
 
-/// The variables on which some sets of points depend. A set over them only has its points at the low numbers.
+/// The variables on which some sets of points depend. A set over these variables uses the low point numbers
+/// only.
 class Variables {
   public:
     explicit Variables(std::initializer_list<const Points*> sets);

@@ -12,9 +12,9 @@ using sequencer::FastStatement;
 using sequencer::FlexStatement;
 using sequencer::Term;
 
-/// What a scan did in one case.
+/// The effect of a scan in one case.
 struct Done {
-    std::uint8_t next = 0;  ///< the step that is active afterwards
+    std::uint8_t next = 0;  ///< the active step after the scan
     std::uint8_t outputs = 0;
     bool writes_outputs = false;
     bool clears = false;
@@ -84,7 +84,7 @@ class Comparison {
     }
 
   private:
-    /// What a rule, or none, wants in every case in which it holds.
+    /// The requirements of a rule, or of no rule, in every case in which it is true.
     struct Wanted {
         const Action* action = nullptr;
         std::uint8_t next = 0;

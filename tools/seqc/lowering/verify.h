@@ -9,14 +9,13 @@
 
 namespace nplc::seqc {
 
-/// The first case (see truth.h) in which the step's terms do something else than its rules say: next step,
-/// outputs, presets, counter and orders in their order, the last true term deciding (001 §6.1.9). The raw
-/// terms at the end of `terms` are left out. Made from the bytes alone, so that it also finds what the
-/// lowering got wrong.
+/// The first case (see truth.h) in which the step's terms differ from its rules: next step, outputs, presets,
+/// counter and orders in their order, the last true term deciding (001 §6.1.9). The raw terms at the end of
+/// `terms` are ignored. Works on the bytes only, so that it also detects errors of the lowering.
 std::optional<std::size_t> first_difference(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                             const std::vector<LoweredTerm>& terms);
 
-/// Reports a difference as an error of the compiler itself.
+/// Reports a difference as an internal error of the compiler.
 void check_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                  const std::vector<LoweredTerm>& terms, Report& report);
 

@@ -16,7 +16,7 @@ const Compilation& sound(const View& view) {
     return view.program->compiled();
 }
 
-/// Where the steps of the program, and of the files that it includes, stand.
+/// Source lines of the steps, included files too.
 Json step_lines(const Workspace& workspace, const View& view, const Compilation& compiled) {
     Json steps = Json::array();
     for (const StepOrigin& step : compiled.steps) {

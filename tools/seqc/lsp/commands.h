@@ -5,10 +5,10 @@
 #include "lsp/verifier.h"
 #include "lsp/workspace.h"
 
-/// What workspace/executeCommand answers.
+/// Results of workspace/executeCommand.
 namespace nplc::seqc::lsp {
 
-/// {"dot": Graphviz' text, "svg": the drawing, "steps": {"name": line}}; throws ResponseError for a program
+/// {"dot": Graphviz text, "svg": the drawing, "steps": {"name": line}}; throws ResponseError for a program
 /// with errors.
 Json dot_of(Workspace& workspace, const Document& document);
 

@@ -58,7 +58,7 @@ Json scenario_diagnostics(Workspace& workspace, const Document& document) {
     return list;
 }
 
-/// What the grammar has against it, and then the first thing that the checker cannot read.
+/// Syntax errors, and then the first error of the property parser.
 Json property_diagnostics(Workspace& workspace, const Document& document) {
     Json list = Json::array();
     const View view = workspace.view_of(document);
@@ -76,7 +76,7 @@ Json property_diagnostics(Workspace& workspace, const Document& document) {
     return list;
 }
 
-/// Of a file for INCLUDE that no program includes only the grammar can be judged.
+/// For an include file that no program includes only the syntax can be checked.
 std::vector<Diagnostic> told(const analysis::Program& program, const Document& document) {
     const bool is_alone = program.is_part() && program.sources().has_first() &&
                           &program.sources().program() == &program.own_file();

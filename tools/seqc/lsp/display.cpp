@@ -27,7 +27,7 @@ struct Cell {
     std::uint32_t modifiers = 0;
 };
 
-/// A token of several lines is one a line.
+/// A multi-line token is split into one per line.
 void add_cells(const Workspace& workspace, const analysis::Lines& lines, std::string_view text, Span span,
                std::uint32_t type, std::uint32_t modifiers, std::vector<Cell>& cells) {
     const std::uint32_t last = lines.line_of(analysis::end_of(span));
@@ -136,7 +136,7 @@ Json folding(Workspace& workspace, const Json& params) {
     return list;
 }
 
-/// From the word to the whole text, in the document's own places.
+/// From the word to the whole text, as places of the document.
 std::vector<Span> selections_at(const At& at, std::uint32_t offset) {
     if (at.document.language() == Language::scenario) return scenario_selections(at, offset);
     std::vector<Span> spans = analysis::selections_at(at.program(), offset);

@@ -19,7 +19,7 @@ bool is_plain(char c) {
            std::string_view("-._~/").find(c) != std::string_view::npos;
 }
 
-/// A place of a message; false if it is none.
+/// Reads a place of a message; false if invalid.
 bool read_place(const Json& json, analysis::Place& place) {
     if (!json.is_object() || !json.contains("line") || !json.contains("character")) return false;
     const Json& line = json["line"];

@@ -14,14 +14,13 @@ using Json = nlohmann::json;
 
 enum class Language : std::uint8_t { program, scenario, property };
 
-/// "file:///a%20b.seq" and back; empty for what is no file.
+/// "file:///a%20b.seq" and back; empty for other schemes.
 std::string path_of_uri(const std::string& uri);
 std::string uri_of_path(const std::string& path);
-/// By the file's ending, else as the client says.
+/// By the file extension, else as given by the client.
 Language language_of(const std::string& uri, const std::string& language_id);
 
-/// A text that an editor has open. What is known of it is worked out when it is asked for, and only from its
-/// text.
+/// A text that an editor has open. Derived data are computed on demand, and only from the text.
 class Document {
   public:
     Document(std::string uri, Language language, std::int64_t version, std::string text)
@@ -37,7 +36,7 @@ class Document {
 
     const analysis::Lines& lines() const;
 
-    bool changed = true;  ///< since diagnostics were told
+    bool changed = true;  ///< since diagnostics were last published
 
   private:
     std::string uri_;

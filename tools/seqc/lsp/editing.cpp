@@ -42,7 +42,7 @@ int item_kind(Proposal::Kind kind) {
     return 1;
 }
 
-/// Without the marks of a snippet, for clients that do not take them.
+/// Without the marks of a snippet, for clients that do not support them.
 std::string plain(const std::string& snippet) {
     std::string text;
     for (std::size_t at = 0; at < snippet.size(); ++at) {
@@ -85,7 +85,7 @@ Json completion(Workspace& workspace, const Json& params) {
     return {{"isIncomplete", false}, {"items", items}};
 }
 
-/// The documentation of one item is worked out when it is looked at.
+/// The documentation of an item is computed when it is requested.
 Json resolve_completion(Workspace& workspace, const Json& params) {
     Json item = params;
     const std::string label = params.value("label", "");
@@ -121,7 +121,7 @@ Json signature_help(Workspace& workspace, const Json& params) {
     return {{"signatures", list}, {"activeSignature", 0}, {"activeParameter", signatures.front().active}};
 }
 
-/// In the program of a request's document: a property file's text stands in it somewhere.
+/// Converts to the program of the document: the text of a property file is inserted in it.
 Span range_of(const Workspace& workspace, const At& at, const Json& params) {
     Span range = workspace.span_in(at.document, params.value("range", Json()));
     range.offset += at.view.inserted_at;
@@ -184,7 +184,7 @@ Json action_json(const Workspace& workspace, const At& at, const analysis::Fix& 
     return action;
 }
 
-/// The preferred fix of every mistake, those that touch each other left out.
+/// The preferred fix of every diagnostic, without overlapping ones.
 void add_fix_all(const Workspace& workspace, const At& at, Json& actions) {
     analysis::Fix all{"Do all that the messages advise", {}, false};
     std::size_t fixed = 0;

@@ -6,7 +6,7 @@
 
 #include "lsp/workspace.h"
 
-/// What the server answers: a function for each request of the protocol.
+/// The request handlers of the server, one function for each request of the protocol.
 namespace nplc::seqc::lsp {
 
 using Handler = Json (*)(Workspace& workspace, const Json& params);
@@ -19,7 +19,7 @@ void add_editing(Handlers& handlers);     ///< completion, signatures, formattin
 /// All diagnostics of a text and of the files that it includes, by URI.
 std::map<std::string, Json> diagnostics_of(Workspace& workspace, const Document& document);
 
-/// A line above the text that a client's command stands behind.
+/// A code lens: a line above the text that triggers a client command.
 Json lens_json(const Json& range, const std::string& title, const std::string& command, Json arguments);
 
 /// The names of colours_of's types, in their order.

@@ -38,7 +38,7 @@ int symbol_kind(Kind kind) {
     return 13;
 }
 
-/// The file that an INCLUDE names, from its text.
+/// The file of an INCLUDE, by its text.
 std::optional<std::string> file_at(const Workspace& workspace, const analysis::Program& program,
                                    std::uint32_t text_offset) {
     const Sources& sources = program.sources();
@@ -110,7 +110,7 @@ Json prepare_rename(Workspace& workspace, const Json& params) {
     return {{"range", workspace.range_json(at.view, *span)}, {"placeholder", at.program().text(*span)}};
 }
 
-/// A name of an included file: what other programs that include it have of the name.
+/// For a name of an included file: adds its occurrences in other programs that include the file.
 void add_programs_beside(Workspace& workspace, const At& at, Span name, const std::string& new_name,
                          Json& found) {
     const SourceFile& file = at.program().sources().file_at(name.offset);

@@ -18,12 +18,12 @@
 namespace nplc::seqc::lsp {
 namespace {
 
-/// Typing is over for the moment.
+/// Delay after the last change.
 constexpr std::chrono::milliseconds kQuiet{300};
 
 using Item = std::variant<rpc::Incoming, VerifyOutcome>;
 
-/// What the reader and the verifier hand to the thread that answers.
+/// Messages from the reader and the verifier to the answering thread.
 class Mailbox : public rpc::Queue<Item> {
   public:
     void put(Item item) {
@@ -31,14 +31,14 @@ class Mailbox : public rpc::Queue<Item> {
             note_cancellation(coming, waiting);
         });
     }
-    /// True once for a request whose cancellation has come already.
+    /// True once for a request that was already cancelled.
     bool take_cancellation(const Json& id) {
         const std::lock_guard lock(mutex_);
         return cancelled_.erase(id.dump()) > 0;
     }
 
   private:
-    /// Only while its request still waits here.
+    /// Only while its request is still queued.
     void note_cancellation(const Item& coming, const std::deque<Item>& waiting) {
         const auto* incoming = std::get_if<rpc::Incoming>(&coming);
         if (incoming == nullptr || incoming->kind != rpc::Incoming::Kind::message) return;
@@ -56,7 +56,7 @@ class Mailbox : public rpc::Queue<Item> {
     std::set<std::string> cancelled_;
 };
 
-/// Verifies one program at a time; of several versions that wait only the newest.
+/// Verifies one program at a time; of several queued versions only the newest.
 class VerifierThread {
   public:
     explicit VerifierThread(std::shared_ptr<Mailbox> mailbox) : state_(std::make_shared<State>()) {
@@ -138,7 +138,7 @@ int run_server(std::istream& in, std::ostream& out) {
         if (mailbox->empty()) server.catch_up();
     }
     out.flush();
-    // The reader and the verifier may wait or work for long: they end with the process.
+    // The reader and the verifier may be blocked or busy for long: they end with the process.
     std::_Exit(server.exit_code());
 }
 

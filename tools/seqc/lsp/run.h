@@ -4,7 +4,7 @@
 
 namespace nplc::seqc::lsp {
 
-/// The language server on two streams, until `exit` or the end of `in`. Answers the exit code: 0 after
+/// Runs the language server on two streams, until `exit` or the end of `in`. Returns the exit code: 0 after
 /// shutdown and exit, else 1.
 int run_server(std::istream& in, std::ostream& out);
 

@@ -19,7 +19,7 @@ bool is_comment(std::string_view line) {
     return first != line.npos && (line[first] == '#' || line.substr(first, 2) == "//");
 }
 
-/// Without its comment, and without blanks at both ends.
+/// A line without its comment and without blanks at both ends.
 Span sentence_in(const analysis::Lines& lines, std::uint32_t number) {
     const std::string_view line = lines.line(number);
     const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());

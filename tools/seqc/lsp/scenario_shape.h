@@ -4,16 +4,17 @@
 
 #include "lsp/features.h"
 
-/// The lines of scenarios and property files: outline, folds, selections, and words that a mistake means.
+/// Line-based features of scenarios and property files: outline, folding, selections, and fixes for misspelt
+/// words.
 namespace nplc::seqc::lsp {
 
-/// A symbol a sentence.
+/// One symbol per statement.
 Json scenario_symbols(const Workspace& workspace, const At& at);
 /// Comments of several lines.
 Json text_folds(const analysis::Lines& lines);
-/// The word, the line without its comment, the text.
+/// Selection ranges: the word, the line without its comment, the text.
 std::vector<Span> scenario_selections(const At& at, std::uint32_t offset);
-/// Words to write in the place of those that are misspelt, for the lines that a range touches.
+/// Fixes for misspelt words in the lines of a range.
 Json scenario_fixes(const Workspace& workspace, const At& at, const Json& params);
 
 }  // namespace nplc::seqc::lsp

@@ -21,7 +21,7 @@ bool continues_word(char c) {
     return begins_word(c) || (c >= '0' && c <= '9');
 }
 
-/// Words that sentences of a scenario are made of, with what they do.
+/// Words of scenario statements with their meaning.
 struct Sentence {
     std::string_view word;
     std::string_view does;
@@ -134,7 +134,7 @@ std::vector<Word> words_of(std::string_view text) {
             before = word;
             compares = false;
             at = end;
-        } else if (c >= '0' && c <= '9') {  // a number and what is written at once with it
+        } else if (c >= '0' && c <= '9') {  // a number with a suffix
             while (at < text.size() && (continues_word(text[at]) || text[at] == '.')) ++at;
             compares = false;
             before = {};

@@ -268,7 +268,7 @@ void Server::publish(Document& document) {
     publish_others(document.uri(), std::move(lists));
 }
 
-/// What programs say of files that they include and that are not open, from all of them together.
+/// Diagnostics of programs for included files that are not open, merged over all programs.
 void Server::publish_others(const std::string& program, std::map<std::string, Json> lists) {
     std::set<std::string> touched;
     for (auto& [uri, by_program] : others_) {
@@ -279,7 +279,7 @@ void Server::publish_others(const std::string& program, std::map<std::string, Js
         touched.insert(uri);
     }
     for (const std::string& uri : touched) {
-        if (workspace_.find(uri) != nullptr) continue;  // it is told by itself
+        if (workspace_.find(uri) != nullptr) continue;  // it publishes its own
         notify("textDocument/publishDiagnostics", {{"uri", uri}, {"diagnostics", others_of(uri)}});
     }
 }
@@ -303,7 +303,7 @@ void Server::catch_up() {
     }
 }
 
-/// Nothing of a scenario, of what has errors, and of properties without a program.
+/// Empty for a scenario, a program with errors, or properties without a program.
 std::optional<VerifyJob> Server::job_of(const Document& document) {
     if (document.language() == Language::scenario) return std::nullopt;
     const View view = workspace_.view_of(document);
@@ -322,7 +322,7 @@ std::vector<VerifyJob> Server::take_jobs() {
     return jobs;
 }
 
-/// Of a property file the verdicts on its own properties: its program shows the others.
+/// For a property file only the verdicts on its own properties: its program shows the others.
 void Server::keep(VerifyOutcome outcome, const Document& document) {
     const View view = workspace_.view_of(document);
     if (!view.property_uri.empty()) {
@@ -338,7 +338,7 @@ void Server::verified(const VerifyOutcome& outcome) {
     if (document == nullptr || document->version() != outcome.version) return;
     const auto job = job_of(*document);
     if (!job || job->sources.text() != outcome.source)
-        return;  // the program of these properties has changed since
+        return;  // the program of these properties has changed meanwhile
     keep(outcome, *document);
     publish(*document);
     if (refreshes_lenses_)

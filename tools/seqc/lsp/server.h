@@ -12,8 +12,8 @@
 
 namespace nplc::seqc::lsp {
 
-/// The language server without its streams and threads: messages in, messages out, in the order in which they
-/// come. What it answers depends on the texts as they stand, not on how they came about.
+/// The language server without streams and threads: messages in, messages out, in order. Its answers depend
+/// on the present texts only, not on the sequence of edits.
 class Server {
   public:
     using Send = std::function<void(const Json&)>;
@@ -21,14 +21,14 @@ class Server {
     explicit Server(Send send);
 
     void receive(const Json& message);
-    /// What was in no JSON object.
+    /// Input that was no JSON object.
     void malformed(const std::string& problem);
-    /// To be called when no message waits: tells the diagnostics of texts that have changed.
+    /// To be called when no message is pending: publishes the diagnostics of changed texts.
     void catch_up();
-    /// A request that its client no longer wants, and that has not been received yet.
+    /// The client has cancelled a request that has not been received yet.
     void cancelled(const Json& message);
 
-    /// Programs and property files that have changed and want to be verified, once each.
+    /// Changed programs and property files that need verification, once each.
     std::vector<VerifyJob> take_jobs();
     void verified(const VerifyOutcome& outcome);
 
@@ -58,14 +58,14 @@ class Server {
     Send send_;
     Workspace workspace_;
     Handlers handlers_;
-    std::map<std::string, VerifyOutcome> verdicts_;  ///< by URI, of the text as it stands
+    std::map<std::string, VerifyOutcome> verdicts_;  ///< by URI, for the present text
     std::set<std::string> unverified_;
     /// Diagnostics of included files, by their URI and that of the program.
     std::map<std::string, std::map<std::string, Json>> others_;
     bool initialized_ = false;
     bool shut_down_ = false;
     bool verifies_ = true;
-    bool refreshes_lenses_ = false;  ///< the client asks for lenses anew when it is told to
+    bool refreshes_lenses_ = false;  ///< the client requests lenses again on a refresh request
     unsigned asked_ = 0;             ///< requests to the client
     std::optional<int> exit_code_;
 };

@@ -16,7 +16,7 @@ namespace {
 using verify::Severity;
 using verify::Verdict;
 
-/// An editor's machine has other work too.
+/// Limited, since an editor's machine has other work.
 constexpr std::size_t kMostStates = 1'000'000;
 constexpr std::size_t kMostRelated = 20;
 
@@ -27,7 +27,7 @@ Span span_of_step(const Compilation& program, std::uint8_t step) {
     return program.steps.empty() ? Span{} : program.steps.front().span;
 }
 
-/// The name behind PROPERTY.
+/// Position of the name after PROPERTY.
 Span span_of_property(const Compilation& program, std::string_view source, const std::string& name) {
     for (const Span& span : program.properties) {
         const std::string_view text = source.substr(span.offset, span.length);

@@ -9,9 +9,9 @@
 
 namespace nplc::seqc::lsp {
 
-/// A program to be verified, with the properties of its own.
+/// A program to be verified, with its own properties.
 struct VerifyJob {
-    std::string uri;           ///< of the program, or of a property file whose text `source` has in it
+    std::string uri;           ///< of the program, or of a property file whose text is inserted in `source`
     std::int64_t version = 0;  ///< of that document
     Sources sources;
 };
@@ -23,19 +23,19 @@ struct Finding {
     std::string message;
     enum class Level : std::uint8_t { error, warning, information, hint } level = Level::hint;
     std::vector<Note> related;  ///< the scans of a counter-example, at their steps
-    std::string scenario;       ///< the counter-example to be rehearsed; empty if there is none
+    std::string scenario;       ///< the counter-example as a scenario; empty if there is none
 };
 
 struct VerifyOutcome {
     std::string uri;
     std::int64_t version = 0;
-    std::string source;  ///< that was verified
+    std::string source;  ///< the verified text
     std::size_t states = 0;
     bool complete = false;
     std::vector<Finding> findings;
 };
 
-/// Takes as long as it takes: not for the thread that an editor waits for.
+/// Long-running: not for the thread that answers the editor.
 VerifyOutcome verify_program(const VerifyJob& job);
 
 }  // namespace nplc::seqc::lsp

@@ -17,12 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 500;
-/// Where programs that include a file are looked for: its folder and those above it.
+/// Search depth for programs that include a file: its folder and those above it.
 constexpr int kFoldersUp = 3;
 
 using Kept = std::shared_ptr<const analysis::Program>;
 
-/// The one that is known already, if nothing that it is made of has changed.
+/// Returns the cached program if none of its texts has changed.
 Kept kept(Kept& known, Sources sources) {
     const auto same = [&](const Sources& other) {
         return other.text() == sources.text() && other.problems().size() == sources.problems().size() &&
@@ -56,7 +56,7 @@ std::string stem_of(const std::string& path) {
     return host::name_of(host::path_of(path).stem());
 }
 
-/// Of the programs in a folder the one whose name a file's name begins with.
+/// Among the programs in a folder, the one whose name is a prefix of the file's name.
 std::string program_for(const std::string& path) {
     const std::vector<std::string> programs = files_in(folder_of(path), ".seq");
     std::string best;

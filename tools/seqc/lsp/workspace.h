@@ -10,7 +10,7 @@
 
 namespace nplc::seqc::lsp {
 
-/// Answered to a request instead of a result.
+/// The answer to a request that failed.
 struct ResponseError : std::runtime_error {
     ResponseError(int error_code, const std::string& message)
         : std::runtime_error(message), code(error_code) {}
@@ -25,27 +25,27 @@ inline constexpr int kServerNotInitialized = -32002;
 inline constexpr int kRequestCancelled = -32800;
 inline constexpr int kRequestFailed = -32803;
 
-/// A program as a request sees it. Of a property file: its program with the properties in front of
-/// END_PROGRAM, so that one front end answers for both.
+/// A program as seen by a request. For a property file: its program with the properties inserted before
+/// END_PROGRAM, so that one front end handles both.
 struct View {
     std::shared_ptr<const analysis::Program> program;
-    std::string uri;                ///< of the program; empty if no file is known
-    std::string part_uri;           ///< of the file that it includes, if that is the one that is asked about
-    std::string property_uri;       ///< of the property file, if there is one
-    std::uint32_t inserted_at = 0;  ///< where its text stands
-    std::uint32_t inserted = 0;     ///< and how long it is
+    std::string uri;                ///< of the program; empty if there is no file
+    std::string part_uri;           ///< of the included file that the request is about, if any
+    std::string property_uri;       ///< of the property file, if any
+    std::uint32_t inserted_at = 0;  ///< position of its text
+    std::uint32_t inserted = 0;     ///< and its length
 
     bool in_property_file(std::uint32_t offset) const {
         return !property_uri.empty() && offset >= inserted_at && offset <= inserted_at + inserted;
     }
 };
 
-/// The texts that are open, and the files beside them.
+/// The open texts and the files around them.
 class Workspace {
   public:
     analysis::Encoding encoding = analysis::Encoding::utf16;
     std::vector<std::string> folders;  ///< paths
-    bool snippets = false;             ///< the client takes $1
+    bool snippets = false;             ///< the client supports $1
 
     void open(Document document);
     void close(const std::string& uri) { documents_.erase(uri); }
@@ -54,16 +54,16 @@ class Workspace {
     Document& get(const std::string& uri);
     std::map<std::string, Document>& documents() { return documents_; }
 
-    /// Of a text that a program includes: as that program sees it, an open one before others.
+    /// For an included text: as seen by its program, an open one preferred.
     std::shared_ptr<const analysis::Program> program_of(const Document& document);
-    /// It includes a file, or is included.
+    /// The text includes a file or is included.
     bool has_parts(const Document& document);
-    /// Throws ResponseError where there is none.
+    /// Throws ResponseError if there is no program.
     View view_of(const Document& document);
-    /// The program that a scenario or property file belongs to: the .seq whose name its name begins with, or
-    /// the only one in its folder. Null if there is none.
+    /// The program of a scenario or property file: the .seq whose name is a prefix of its name, or the only
+    /// one in its folder. Null if there is none.
     std::shared_ptr<const analysis::Program> companion_of(const Document& document, std::string& uri);
-    /// Scenario and property files that belong to a program, as text by URI.
+    /// Scenario and property files of a program, as text by URI.
     std::map<std::string, std::string> dependants_of(const std::string& program_uri);
     /// Programs of the folders, open or not.
     std::map<std::string, std::shared_ptr<const analysis::Program>> programs();
@@ -74,12 +74,12 @@ class Workspace {
     Json location_json(const View& view, Span span) const;
     std::string uri_at(const View& view, Span span) const;
     std::string uri_of_file(const SourceFile& file) const;
-    /// Files as they are open, or else as they are stored.
+    /// Reads open texts first, else the stored files.
     TextReader reader() const;
-    /// Programs of those that include a file, by URI.
+    /// Programs that include a file, by URI.
     std::map<std::string, std::shared_ptr<const analysis::Program>> programs_that_include(
         const SourceFile& file);
-    /// Programs that may include a file: those that are open, and those in its folder and the ones above it.
+    /// Programs that may include a file: open ones, and those in its folder and the folders above.
     std::vector<std::string> programs_around(const std::string& path) const;
     Json range_json(const analysis::Lines& lines, Span span) const;
     /// The range of a request in a document's own text.
@@ -90,7 +90,7 @@ class Workspace {
     bool text_of_program(const std::string& path, std::string& text) const;
 
     std::map<std::string, Document> documents_;
-    /// By path, or by the URI of what is open.
+    /// By path, or by the URI of an open text.
     std::map<std::string, std::shared_ptr<const analysis::Program>> files_;
 };
 

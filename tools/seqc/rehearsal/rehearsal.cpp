@@ -17,7 +17,7 @@ std::uint64_t microseconds(Time time) {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(time).count());
 }
 
-/// What the sequence sees and does; time and the motor's motion apart.
+/// Compares the sequence's state, without time and the motor's motion.
 bool same_scan(const sim::Snapshot& a, const sim::Snapshot& b) {
     return a.step == b.step && a.outputs == b.outputs && a.inputs == b.inputs && a.counter == b.counter &&
            a.in_position == b.in_position && a.error == b.error && b.orders.empty() &&
@@ -134,7 +134,7 @@ class Virtual final : public Rehearsal {
 Rehearsal::Opened Rehearsal::open(const seqc::Compilation& program, const Options& options) {
     sim::Names names = names_of(program.symbols);
     sim::WorldOptions world;
-    const registers::DriveModel* drive = nullptr;  // a JVL motor stands in for it unless one is named
+    const registers::DriveModel* drive = nullptr;  // replaced by a JVL motor unless one is named
     if (!options.motor.empty()) {
         drive = registers::find_drive(options.motor);
         const auto model = registers::model_of(options.motor);

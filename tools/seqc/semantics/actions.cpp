@@ -18,8 +18,8 @@ using set_points::ValueKind;
 
 constexpr double kLongest = 65'535;
 
-/// The place of a selection among others: a move begins with its P, a speed with its V, so that each starts
-/// with what it needs.
+/// Order of selections: a move begins with its P, a speed with its V, so that each starts with the required
+/// values.
 int rank(Group group, Mode mode) {
     if (group == Group::p) return 2;
     if (group == Group::v && mode == Mode::velocity) return 0;
@@ -33,7 +33,7 @@ void conflict(Report& report, Span span, const char* what, Span entry) {
         .notes.push_back({entry, "the ENTRY of the step that is entered does it too"});
 }
 
-/// SET and RESET: to do it again changes nothing.
+/// SET and RESET are idempotent.
 bool is_switch(const Statement& statement) {
     return statement.kind == Statement::Kind::set_outputs || statement.kind == Statement::Kind::reset_outputs;
 }
@@ -142,7 +142,7 @@ void ActionBuilder::add_by_kind(const Statement& statement) {
             return add_switch(statement);
         case Statement::Kind::call:
         case Statement::Kind::go_back:
-            return;  // what is left of them was reported
+            return;  // errors in the rest were reported
     }
 }
 
@@ -203,7 +203,7 @@ void ActionBuilder::add_next(const Statement& statement) {
     }
     const auto number = to_power_up ? std::optional<std::uint8_t>(0) : scope_.step(statement.name);
     if (!once(action_.next.has_value(), statement, "NEXT is set", action_.next_span)) return;
-    // A step that does not exist was reported; 62 keeps the branch one that leaves its step.
+    // An unknown step was reported; 62 keeps it a branch that leaves its step.
     action_.next = number.value_or(sequencer::kNoSwitch);
 }
 
@@ -227,7 +227,7 @@ void ActionBuilder::add_send(const Statement& statement, std::uint8_t command) {
     if (scope_.is_for_drive(send)) add_send(send);
 }
 
-/// Each takes a term at the least.
+/// Each takes at least one term.
 void ActionBuilder::add_send(const Send& send) {
     if (action_.sends.size() + 1 < kTermsEverywhere) {
         action_.sends.push_back(send);
@@ -291,7 +291,7 @@ void ActionBuilder::add_use_set(const Statement& statement) {
 /// POSITION(Pitch), with CONST Pitch.
 bool ActionBuilder::refuse_constant(const ast::Name& name, Mode mode) {
     const ast::Constant* constant = scope_.constant(name.text);
-    if (constant == nullptr || scope_.report().has("E020")) return false;  // it may be a register too
+    if (constant == nullptr || scope_.report().has("E020")) return false;  // the name may also be a register
     const std::string_view command = mode == Mode::position   ? "POSITION"
                                      : mode == Mode::velocity ? "VELOCITY"
                                                               : "INIT";
@@ -410,7 +410,7 @@ void ActionBuilder::add_counter(const Statement& statement) {
     }
     if (!once(uses_counter(action_), statement, "the counter is changed", action_.counter_span)) return;
     if (value.number == 0) {
-        action_.clears_counter = true;  // a preset of 0 presets nothing (001 §6.1.7)
+        action_.clears_counter = true;  // a preset of 0 has no effect (001 §6.1.7)
     } else {
         action_.counter = static_cast<std::uint16_t>(value.number);
     }

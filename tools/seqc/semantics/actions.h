@@ -10,14 +10,14 @@
 
 namespace nplc::seqc {
 
-/// Works out what a branch's statements do.
+/// Determines the action of a branch's statements.
 class ActionBuilder {
   public:
     explicit ActionBuilder(Scope& scope) : scope_(scope) {}
 
     Action build(const std::vector<ast::Statement>& statements);
 
-    /// The first statement that would act again in every scan and is not marked EVERY_SCAN.
+    /// The first statement that would act in every scan and is not marked EVERY_SCAN.
     std::optional<Span> unmarked() const { return unmarked_; }
     std::optional<Span> marked() const { return marked_; }
 
@@ -47,18 +47,18 @@ class ActionBuilder {
     std::optional<Span> marked_;
 };
 
-/// What the timer is set to; reports what it does not hold.
+/// The timer value; reports a value that the timer cannot hold.
 std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report);
-/// The same of a value that has to be worked out.
+/// The same for a value that must be evaluated.
 std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope);
 
-/// Of a list of outputs in which one is named twice.
+/// Warns about an output that is named twice in a list.
 void warn_named_twice(const std::vector<ast::Name>& outputs, Scope& scope);
 
-/// Adds what `more` switches to what `action` does; reports an output that both switch, each its way.
+/// Merges the SETs and RESETs of `more` into `action`; reports an output that both switch differently.
 void add_switches(Action& action, const Action& more, const char* note, Report& report);
 
-/// Adds the entered step's ENTRY to a branch that enters it; reports what cannot happen in one scan.
+/// Appends the entered step's ENTRY to a branch; reports effects that cannot be combined in one scan.
 void append_entry(Action& action, const Action& entry, Report& report);
 
 }  // namespace nplc::seqc

@@ -1,4 +1,4 @@
-// What is sound and yet seldom meant: a step may ALLOW it with a reason.
+// Advice about valid but rarely intended code: a step may ALLOW it with a reason.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -27,7 +27,7 @@ Truth no_error_cases() {
     return ~error_cases();
 }
 
-/// "Start = 1, Guard = 0": one case of `both`, without the bits that matter to neither condition.
+/// "Start = 1, Guard = 0": one case of `both`, without bits that neither condition depends on.
 std::string example_of(const Truth& both, const Truth& a, const Truth& b, const Symbols& symbols) {
     std::size_t first = 0;
     while (first < kCases && !both.test(first)) ++first;
@@ -98,7 +98,7 @@ class Checker {
         }
     }
 
-    /// WITHIN and BLINKING preset the timer whenever the step is entered.
+    /// WITHIN and BLINKING preset the timer at every entry of the step.
     void preset_by_step(const ast::Step& written, std::uint8_t number) {
         const Memory& memory = memories_[number] = memory_of(written, scope_);
         const std::uint16_t time = memory.blink_for != 0 ? memory.time_of(0) : memory.limit;
@@ -136,7 +136,8 @@ class Checker {
         return rule;
     }
 
-    /// Register values go out whatever ERROR is, so that a motor that starts with an error has them too.
+    /// Register values are sent independent of ERROR, so that a motor that starts with an error gets them
+    /// too.
     StepPlan power_up() {
         StepPlan plan;
         plan.name = "POWER_UP";
@@ -156,7 +157,7 @@ class Checker {
             if (!action.next || *action.next == kPowerUp) {
                 const bool has_if = std::any_of(written.choices.begin(), written.choices.end(),
                                                 [](const ast::Choice& choice) { return !choice.bare; });
-                if (has_if) return plan;  // E064 was said
+                if (has_if) return plan;  // E064 was reported
                 report_.add("E085", written.name.span, "POWER_UP does not say which step comes first",
                             "end it with NEXT := Name;");
                 return plan;
@@ -210,7 +211,7 @@ class Checker {
         plan.name = written.name.text;
         plan.span = written.name.span;
         plan.number = number;
-        plan.own_error = written.own_error || number == fault_;  // E081 says it
+        plan.own_error = written.own_error || number == fault_;  // E081 is reported
         plan.no_helper = written.no_helper;
         plan.entry = entries_[number].statements;
         plan.takes_set_points = written.takes_set_points;
@@ -233,7 +234,8 @@ class Checker {
         return plan;
     }
 
-    /// Once for each state of the step's memory; what never happens is judged where everything can.
+    /// Called once per state of the step's memory; conditions that are never true are checked where every
+    /// case can occur.
     void add_rules(const ast::Step& written, StepPlan& plan) {
         plan.memory = memories_[plan.number];
         const std::size_t states = plan.memory.states();
@@ -260,7 +262,8 @@ class Checker {
         }
     }
 
-    /// ON ERROR EXCEPT .. is like any other ON condition: one that names ERROR is for steps with OWN ERROR.
+    /// ON ERROR EXCEPT .. is handled as any other ON condition: one that names ERROR applies to steps with
+    /// OWN ERROR.
     void refuse_silent_step(const ast::Name& step) {
         const auto on = std::find_if(program_.on_conditions.begin(), program_.on_conditions.end(),
                                      [](const auto& written) { return names_error(written.condition); });
@@ -272,7 +275,7 @@ class Checker {
         if (has_on) d.notes.push_back({on->span, "this is for steps with OWN ERROR alone"});
     }
 
-    /// With what FOR and WITHIN make of a branch's condition.
+    /// The cases of a branch's condition, with FOR and WITHIN applied.
     Truth truth_of(const ast::Branch& branch, bool has_limit) {
         const Truth at_end = truth_of_bit(kTimerZero);
         if (!branch.condition) return has_limit ? cases_without_time(at_end) : no_error_cases();
@@ -281,14 +284,14 @@ class Checker {
         return memory_->runs(state_) ? own & at_end : Truth();
     }
 
-    /// Those of the ELSE that goes with WITHIN.
+    /// The cases of the ELSE that belongs to WITHIN.
     Truth cases_without_time(const Truth& at_end) const {
         const Limit limit = memory_->limit_of(state_);
         if (limit == Limit::runs) return {};
         return limit == Limit::over ? no_error_cases() : no_error_cases() & at_end;
     }
 
-    /// ENTRY happens in the scan that leads to the step, before it takes anything.
+    /// ENTRY is executed in the scan that leads to the step, before the step evaluates anything.
     void refuse_entry_that_acts(const Action& entry, const ast::Step& written) {
         if (entry.sends.empty() && entry.timer_point == 0 && entry.counter_point == 0) return;
         report_
@@ -326,12 +329,12 @@ class Checker {
             }
             plan.conditional.push_back(output);
         }
-        // Nothing enters it at power-up, so a term of its own must write them.
+        // Step 0 is not entered at power-up, so its outputs need a term of their own.
         if (plan.number == kPowerUp && plan.outputs != 0)
             plan.conditional.push_back({plan.outputs, always(), {}});
     }
 
-    /// What comes before a step's own branches, or before one of them.
+    /// The rules before a step's own branches, or before one of them.
     struct Earlier {
         Truth taken;
         std::vector<Rule> rules;
@@ -352,7 +355,7 @@ class Checker {
                           Earlier& earlier) {
         ActionBuilder builder(scope_);
         Action action = builder.build({on.written->next});
-        if (action.next == plan.number) return;  // it is where the condition leads
+        if (action.next == plan.number) return;  // it is the condition's target
         on.covers_one = true;
         enter(action, *action.next);
         const Span place = on.written->condition.span;
@@ -372,7 +375,7 @@ class Checker {
         add_rule(std::move(rule), place, choice, plan, seen);
     }
 
-    /// An ON condition that acts in no step, although it can hold.
+    /// Reports an ON condition that has no effect in any step, although it can be true.
     void warn_idle_conditions() {
         for (std::size_t i = 0; i < on_conditions_.size(); ++i) {
             const OnCondition& on = on_conditions_[i];
@@ -423,7 +426,7 @@ class Checker {
         return place;
     }
 
-    /// Notes which branches take its cases, each case once.
+    /// Records which branches take its cases, each case once.
     void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
         if (own.none()) {
             report_.add("W001", place_of(branch), "this branch is never taken",
@@ -470,7 +473,7 @@ class Checker {
             if (action.next) d.notes.push_back({action.next_span, "this names the step it is in already"});
             if (repeats_entry)
                 d.notes.push_back({entries_[number].span, "the step's ENTRY would be repeated too"});
-            if (!action.next) action = {};  // what it would do beside others does not matter
+            if (!action.next) action = {};  // its other effects do not matter
         } else if (repeats_entry) {
             report_
                 .add("E060", action.next_span,
@@ -527,7 +530,7 @@ class Checker {
         }
     }
 
-    /// `inside`: the step it stands in, if any.
+    /// `inside`: the enclosing step, if any.
     RawTerm raw_term(const ast::RawTerm& term, std::optional<std::uint8_t> inside) {
         RawTerm raw{{}, term.span};
         if (term.symbols) {
@@ -546,7 +549,7 @@ class Checker {
     std::optional<std::uint8_t> fault_;
     std::vector<OnCondition> on_conditions_;
     std::array<Memory, 64> memories_;  ///< by step number
-    const Memory* memory_ = nullptr;   ///< of the step that is looked at, and its state
+    const Memory* memory_ = nullptr;   ///< of the present step, and its state
     std::size_t state_ = 0;
 };
 

@@ -7,42 +7,43 @@
 
 namespace nplc::seqc {
 
-/// From the program as written to rules that never hold together; reports what would surprise.
+/// Converts the program to mutually exclusive rules; reports surprising code.
 Plan check(const ast::Program& program, Scope& scope, Report& report);
 
-/// Steps that no NEXT leads to.
+/// Warns about steps without a NEXT to them.
 void warn_unreachable(const Plan& plan, Report& report);
 
-/// Follows the motor's mode from step to step: what would start it towards an old target, or not at all, and
-/// what waits for an INPOS that never comes.
+/// Tracks the motor's mode from step to step: reports orders that would start it towards an old target or not
+/// at all, and waits for an INPOS that never comes.
 void check_motor_state(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report);
 
-/// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
-/// and acceleration together and go into `roundings`, and orders that wait until it stands.
-/// Set-points count with both ends of their ranges.
+/// Checks a program's moves for a drive that the gateway translates for: ramps, which depend on velocity and
+/// acceleration together and are added to `roundings`, and orders that wait for standstill. Set-points are
+/// checked at both ends of their ranges.
 void check_drive_motion(const Plan& plan, const registers::DriveModel& drive,
                         const std::vector<DeclaredSetPoint>& points, Report& report,
                         std::vector<Rounding>& roundings);
 
-/// Registers that a program for such a drive selects and never gives a value: a JVL motor has them in its
-/// flash, the gateway begins with 0 and with the drive's own.
+/// Reports registers that a program for such a drive selects but never writes: a JVL motor has their values
+/// in its flash, the gateway starts with 0 and the drive's own values.
 void check_drive_registers(const Plan& plan, const registers::DriveModel& drive, Report& report);
 
-/// Distances that were rounded and that relative moves add up.
+/// Checks the sum of roundings over relative moves.
 void check_relative_moves(const Plan& plan, const std::vector<Rounding>& roundings, Report& report);
 
-/// Moves that a later order of the same scan makes void.
+/// Reports moves that a later order of the same scan cancels.
 void check_replaced_moves(const Plan& plan, Report& report);
 
-/// It holds with INPOS only.
+/// True with INPOS only.
 bool needs_in_position(const Rule& rule);
-/// Whether the step ends by a time or a count, whatever the motor does.
+/// Whether a time or a count ends the step, independent of the motor.
 bool has_time_limit(const StepPlan& step);
 
-/// HOME where HOME_MODE has no kind of homing for it.
+/// Reports HOME if HOME_MODE does not select a kind of homing for it.
 void check_home_mode(const Plan& plan, registers::Model model, Report& report);
 
-/// Moves that take the velocity, acceleration or torque of another move, on some ways into their step.
+/// Reports moves that use the velocity, acceleration or torque selected for another move, on some paths to
+/// their step.
 void check_lasting_selections(const Plan& plan, const Symbols& symbols, std::string_view source,
                               Report& report);
 
@@ -54,8 +55,11 @@ void check_restart(const ast::Program& program, const Plan& plan, Scope& scope, 
 /// branches are exchanged.
 void check_arrivals(const ast::Program& program, const Plan& plan, Report& report);
 
-/// Waits for an INPOS that stands already.
+/// Reports waits for an INPOS that is already 1.
 void check_standing_in_position(const Plan& plan, Report& report);
+
+/// A STOP in a homing or a torque mode, another target in position mode, a speed that takes up a move again.
+void check_lasting_motion(const Plan& plan, std::string_view source, Report& report);
 
 /// Moves to where the axis stands, and time limits that end before the move can. Set-points count with the
 /// ends of their ranges.

@@ -127,7 +127,7 @@ class ClaimCheck {
                         "steps are named, or have the numbers 0 to 62");
     }
 
-    /// The compiler calls its own steps by those that they belong to.
+    /// The compiler names its own steps after the steps they belong to.
     bool may_be_made(std::string_view text) const {
         return std::any_of(program_.steps.begin(), program_.steps.end(), [&](const ast::Step& step) {
             return upper(text).starts_with(upper(step.name.text) + "_");
@@ -169,7 +169,7 @@ class ClaimCheck {
         if (claim.kind == Claim::Kind::never) return check_never(condition);
         const bool is_name = condition.kind == TestKind::name;
         const Signal signal = is_name ? signal_of(condition.name.text) : Signal::none;
-        if (is_name && signal == Signal::none) return;  // it is told
+        if (is_name && signal == Signal::none) return;  // already reported
         if (claim.kind == Claim::Kind::ends && signal != Signal::moving)
             report_.add("E023", condition.span, "it can be assumed of moving alone that it ENDS",
                         "write ASSUME moving ENDS WITHIN 2 s;");

@@ -6,8 +6,8 @@
 
 namespace nplc::seqc {
 
-/// What properties and assumptions name, as `tools/verify` will look it up. `is_whole`: all steps that the
-/// compiler makes have their names.
+/// Resolves the names in properties and assumptions as `tools/verify` will. `is_whole`: all
+/// compiler-generated steps have their names.
 void check_claims(const ast::Program& program, Scope& scope, bool is_whole, Report& report);
 
 }  // namespace nplc::seqc

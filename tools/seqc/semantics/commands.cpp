@@ -42,7 +42,7 @@ constexpr std::array kCommands = {
     NamedCommand{"USE_FLEXMAC", Number::use_flexmac, kLink},
 };
 
-/// Where each group's registers stand.
+/// The register numbers of each group.
 struct GroupPlace {
     Group group;
     std::uint8_t first_register;

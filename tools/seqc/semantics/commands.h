@@ -12,11 +12,11 @@
 
 namespace nplc::seqc {
 
-/// A command-mode command by the language's name (001 §5.2.1.4).
+/// A command-mode command by its name in the language (001 §5.2.1.4).
 struct NamedCommand {
     std::string_view name;
     protocol::fastmac::Number number;
-    std::string_view refusal;  ///< why a sequence may not send it; empty if it may
+    std::string_view refusal;  ///< why a sequence may not send it; empty if allowed
 };
 
 const NamedCommand* find_command(std::string_view name);
@@ -37,10 +37,10 @@ char letter_of(protocol::fastmac::Group group);
 /// "V1".
 std::string register_name(Selection selection);
 
-/// As the program calls it.
+/// The program's name of the register.
 std::string shown_register(const Symbols& symbols, Selection selection);
 
-/// A selecting command taken apart; nothing for a command-mode byte.
+/// A decoded selecting command; empty for a command-mode byte.
 struct SelectCommand {
     protocol::fastmac::Mode mode;
     Selection selection;
@@ -49,7 +49,7 @@ struct SelectCommand {
 std::optional<SelectCommand> select_command(std::uint8_t command);
 std::uint8_t command_byte(protocol::fastmac::Mode mode, Selection selection);
 
-/// As it would be written in a program: "POSITION(P2)", "STOP", "NOP".
+/// As written in a program: "POSITION(P2)", "STOP", "NOP".
 std::string describe_command(std::uint8_t command);
 
 /// A statement as written, in one line.

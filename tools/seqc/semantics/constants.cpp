@@ -23,7 +23,7 @@ bool is_time(const Value& value) {
     return value.is_time || same_name(value.unit.text, "s") || same_name(value.unit.text, "ms");
 }
 
-/// Times in milliseconds, so that all of them can be added.
+/// Times in milliseconds, so that they can be added.
 Value as_time(Value value) {
     if (same_name(value.unit.text, "s")) value.number *= 1000;
     value.unit = {};
@@ -120,7 +120,7 @@ Constants::Result Constants::evaluate(const Value& value) {
     return result;
 }
 
-/// `40 mm/Pieces` is read as a unit: what stands behind the last / may be a constant all the same.
+/// `40 mm/Pieces` is parsed as a unit: the word after the last / may still be a constant.
 Constants::Result Constants::literal(const Value& value) {
     if (constants_.empty() || value.unit.text.empty() || is_known_unit(value.unit.text)) return value;
     if (const ast::Constant* factor = find(value.unit.text)) {

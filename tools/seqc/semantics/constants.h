@@ -17,24 +17,23 @@ class Constants {
   public:
     explicit Constants(Report& report) : report_(report) {}
 
-    /// Works it out; reports what does not add up. It may name those that were declared before. False if it
-    /// has no value.
+    /// Evaluates the constant; reports errors. It may use those declared before. False if it has no value.
     bool declare(const ast::Constant& constant);
     bool is_empty() const { return constants_.empty(); }
-    /// The value that a name of VAR_MOTOR really gets. It can be named while name_registers() is on.
+    /// The actual value of a name of VAR_MOTOR. It can be used while name_registers() is on.
     void declare_register(const ast::Name& name, const ast::Value& value);
     void name_registers(bool on) { names_registers_ = on; }
-    /// Where the values of the registers stand that the last value named.
+    /// Positions of the register values used by the last value.
     const std::vector<Span>& registers_met() const { return registers_met_; }
     const ast::Constant* find(std::string_view name) const;
     std::vector<std::string_view> names() const;
 
-    /// The value as one literal with the span of the whole. `reg`: whose modes and bits may be named; null if
-    /// none. Nothing if there was an error, which was reported, or if a name is unknown, which is left in
+    /// Evaluates to one literal with the span of the whole value. `reg`: the register whose modes and bits
+    /// may be named; null if none. Empty after a reported error, or if a name is unknown, which is then in
     /// `unknown`.
     std::optional<ast::Value> worked_out(const ast::Value& value, const registers::Register* reg,
                                          registers::Model model);
-    /// The name that the last call met and that stands for nothing; null: none.
+    /// The undefined name found by the last call; null: none.
     const ast::Name* unknown() const { return unknown_; }
 
   private:

@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::size_t kNobody = SIZE_MAX;
 
-/// What happens in one case of a copy.
+/// The outcome in one case of a copy.
 struct Outcome {
-    std::size_t rule = kNobody;  ///< of the step's, if one acts
+    std::size_t rule = kNobody;  ///< of the step's; none if no rule acts
     CopyKey to;
     std::uint16_t timer = 0;                   ///< preset by FOR or BLINKING
-    std::optional<std::uint8_t> outputs = {};  ///< of OUT .. WHEN in another copy of the step
-    bool stays = false;                        ///< in the same copy, and nothing is to be done for it
+    std::optional<std::uint8_t> outputs = {};  ///< from OUT .. WHEN in another copy of the step
+    bool stays = false;                        ///< in the same copy, without an action
     auto operator<=>(const Outcome&) const = default;
 };
 
@@ -60,7 +60,7 @@ class Copies {
         return from.rules_in.empty() ? from.rules : from.rules_in[from.memory.state_of(key.memory, key.half)];
     }
 
-    /// A TERM goes where it wants, and writes all outputs.
+    /// A TERM sets its own next step, and writes all outputs.
     bool refuses_terms() {
         const auto refuse = [&](Span term, Span other, const char* what) {
             report_
@@ -89,7 +89,7 @@ class Copies {
         return report_.has_errors();
     }
 
-    /// The next step that nothing leads to, if there is one left.
+    /// The next unreachable step, if any.
     bool reach_lost() {
         for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
             const bool is_known =
@@ -200,7 +200,7 @@ class Copies {
                                          (key.is_dark() ? 0 : from.memory.blinking));
     }
 
-    /// All that happens in a copy, each outcome with its cases.
+    /// All outcomes of a copy, each with its cases.
     std::map<Outcome, Truth> outcomes(const CopyKey& key) const {
         std::array<std::size_t, kCases> owner{};
         owner.fill(kNobody);
@@ -269,7 +269,7 @@ class Copies {
         return rule;
     }
 
-    /// Steps of the program keep their places, copies stand behind them.
+    /// Steps of the program keep their places; copies follow them.
     void put_in_order(std::vector<StepPlan> made) {
         const auto place = [&](const StepPlan& s) {
             return s.is_copy ? plan_.steps.size() : index_.at(s.number);
@@ -284,7 +284,7 @@ class Copies {
     Report& report_;
     std::bitset<64> taken_;
     std::map<std::uint8_t, std::size_t> index_;  ///< in the plan, by number
-    std::vector<CopyKey> order_;                 ///< as they are reached
+    std::vector<CopyKey> order_;                 ///< in the order of their discovery
     std::map<CopyKey, std::uint8_t> numbers_;
     std::map<CopyKey, Span> ways_;
 };

@@ -6,13 +6,13 @@
 
 namespace nplc::seqc {
 
-/// What a step knows besides its number, outputs that are set, edges that are armed, a time that runs, a lamp
-/// that is dark, becomes steps of the table: a copy of the step for each combination that is reached. The one
-/// reached first keeps the step's number. Changes nothing in a program without SET, R_TRIG, FOR and BLINKING.
-/// Symbols of `result` get the names; reports where there is no room, or NO_HELPER stands in the way.
+/// A step's memory besides its number (outputs that are set, armed edges, a running time, a blinking lamp
+/// that is off) is represented by steps of the table: one copy of the step for each reachable combination.
+/// The first one reached keeps the step's number. No effect on a program without SET, R_TRIG, FOR and
+/// BLINKING. Names are added to the symbols of `result`; reports lack of space, or a conflict with NO_HELPER.
 void make_copies(Plan& plan, Compilation& result, Report& report);
 
-/// A timer that a program presets and tests, and that WITHIN, FOR or BLINKING of a step between have changed.
+/// Reports a timer that a program presets and tests, with a WITHIN, FOR or BLINKING of a step in between.
 void check_shared_timer(const Plan& plan, Report& report);
 
 }  // namespace nplc::seqc

@@ -10,7 +10,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// "Clamp on, Start seen off": in what `key` differs from the copy that is reached first.
+/// "Clamp on, Start seen off": the difference of `key` to the first copy.
 class Difference {
   public:
     Difference(const StepPlan& step, const CopyKey& first, const CopyKey& key, const Symbols& symbols) {

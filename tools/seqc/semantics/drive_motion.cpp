@@ -20,12 +20,12 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
-/// What may be true of the drive. Values that no statement gives are not among `v` and `a`.
+/// The possible state of the drive. `v` and `a` do not include values that no statement writes.
 struct DriveState {
     bool known = false;
-    bool positions = false;  ///< it may be on its way to a position
-    bool runs = false;       ///< it may turn at a velocity
-    Span motion;             ///< what made it move
+    bool positions = false;  ///< it may be moving to a position
+    bool runs = false;       ///< it may be running at a velocity
+    Span motion;             ///< the order that started the motion
     std::set<std::int16_t> v;
     std::set<std::uint16_t> a;
 
@@ -47,11 +47,11 @@ struct DriveState {
     }
 };
 
-/// What goes to the motor, by its effect on the drive.
+/// The effect of an order on the drive.
 struct Effect {
-    std::optional<std::uint8_t> v{};      ///< V_SOLL becomes what this register holds, 0: the value itself
+    std::optional<std::uint8_t> v{};      ///< V_SOLL gets this register's value, 0: the value itself
     std::optional<std::uint8_t> a{};      ///< A_SOLL likewise
-    bool sets_position = false;           ///< P_SOLL, however
+    bool sets_position = false;           ///< P_SOLL, in any way
     std::optional<std::uint32_t> mode{};  ///< of MODE_REG
     bool stops = false;                   ///< V_SOLL = 0
 };
@@ -141,8 +141,8 @@ class DriveWalk {
     }
 
   private:
-    /// Of a set-point both ends of its range too: a ramp is longest with one end of each, shortest with the
-    /// others.
+    /// For a set-point both ends of its range: a ramp is longest with one combination of ends, shortest with
+    /// another.
     std::set<std::uint32_t> written_by(const Send& send) const {
         if (send.set_point == 0) return {send.value};
         const set_points::SetPoint& point = points_[send.set_point - 1U].point;
@@ -164,7 +164,7 @@ class DriveWalk {
         if (effect.a) state.a = values_of<std::uint16_t>(*effect.a, send);
         const bool selects_only = effect.mode == 2U && !effect.sets_position && send.reg == nullptr;
         if (selects_only && !state.runs) {
-            // it is where P_SOLL says, or on its way there: see E052 for INIT
+            // It is at P_SOLL, or moving to it: see E052 for INIT.
         } else if (effect.mode) {
             state.stand();
             state.runs = *effect.mode == 1;
@@ -176,7 +176,7 @@ class DriveWalk {
         if (effect.stops) state.stand();
     }
 
-    /// What the drive refuses in motion, so that the gateway keeps it until the drive stands.
+    /// Orders that the drive refuses in motion, so that the gateway keeps them until standstill.
     void judge_wait(const Effect& effect, const Send& send, const DriveState& state) {
         const bool to_velocity = effect.mode ? *effect.mode == 1 : state.runs;
         const char* what = effect.sets_position       ? "a position"

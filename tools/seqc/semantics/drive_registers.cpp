@@ -1,4 +1,4 @@
-// Registers that a program for a drive without registers selects and never gives a value.
+// Checks a program for a drive without registers: registers that are selected but never written.
 #include <fmt/format.h>
 
 #include <set>
@@ -64,7 +64,7 @@ class UnsetRegisters {
         const unsigned number = send.command & 0x1FU;
         const auto first = static_cast<unsigned>(Number::use_set_1);
         if (number < first || number > static_cast<unsigned>(Number::use_set_4)) return;
-        // Only what every set has: T and Z are often left as they are.
+        // Only the groups used in every set: T and Z are often left unchanged.
         for (const Group group : {Group::p, Group::v, Group::a}) judge(send, group, number - first + 1);
     }
 

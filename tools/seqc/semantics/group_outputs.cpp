@@ -9,7 +9,7 @@ namespace {
 
 using Steps = std::bitset<64>;
 
-/// Of groups those that stand before `limit` count; what they repeat or miss is told elsewhere.
+/// Only groups before `limit`; duplicates and missing steps are reported elsewhere.
 Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast::Program& program,
                Scope& scope) {
     Steps steps;

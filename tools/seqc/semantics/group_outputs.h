@@ -5,7 +5,7 @@
 
 namespace nplc::seqc {
 
-/// `OUT Lamp IN Moving;` becomes a part of the OUT of each step that it names.
+/// Adds `OUT Lamp IN Moving;` to the OUT of each step in it.
 void spread_outputs(ast::Program& program, Scope& scope);
 
 }  // namespace nplc::seqc

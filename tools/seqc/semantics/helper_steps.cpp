@@ -11,7 +11,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// Cases by what is at 0: nothing, the timer, the counter, both.
+/// Cases by the zero flags: none, timer, counter, both.
 enum Zeros : std::size_t { kNothingAt0, kTimerAt0, kCounterAt0, kBothAt0 };
 
 constexpr std::size_t kInputCases = std::size_t{1} << kTimerZero;
@@ -20,11 +20,11 @@ std::size_t at_zeros(std::size_t point, std::size_t layer) {
     return point | (layer << kTimerZero);
 }
 
-/// What no term can do: the first inputs at which it shows.
+/// A rule that no term can implement: the first input image that shows it.
 struct Trouble {
-    std::size_t acts = 0;        ///< a case in which the rule acts
-    std::size_t must_not = 0;    ///< and one in which its terms would act as well
-    bool is_sent_twice = false;  ///< instead of that
+    std::size_t acts = 0;        ///< a case in which the rule must act
+    std::size_t must_not = 0;    ///< a case in which its terms would act as well
+    bool is_sent_twice = false;  ///< instead, the order would be sent twice
 };
 
 std::optional<Trouble> trouble_of(const Rule& rule) {
@@ -119,7 +119,7 @@ class HelperSteps {
         });
     }
 
-    /// Its number; 62, which is no step's, if there is no room.
+    /// Its number; 62, which is no valid step, if there is no space.
     std::uint8_t helper_for(const StepPlan& step, const Rule& rule) {
         const std::vector<Rule> rules = rules_of_helper(step, rule);
         for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
@@ -147,7 +147,7 @@ class HelperSteps {
         return number;
     }
 
-    /// Points at the branch and at the statement of it that cannot be taken back.
+    /// Marks the branch and its statement that cannot be cancelled.
     void refuse(const StepPlan& step, const Rule& rule, const Trouble& trouble, const char* help) {
         const auto part = std::find_if(rule.parts.begin(), rule.parts.end(),
                                        [&](const RulePart& p) { return p.when.test(trouble.acts); });

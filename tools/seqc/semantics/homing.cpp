@@ -20,7 +20,8 @@ bool is_home(const Send& send) {
 
 }  // namespace
 
-/// Only where the program itself sets HOME_MODE, and no value of it has a kind of homing for the command.
+/// Only if the program itself sets HOME_MODE, and none of its values selects a kind of homing for the
+/// command.
 void check_home_mode(const Plan& plan, registers::Model model, Report& report) {
     const registers::Field* field = registers::field_of(model, registers::HOME_MODE, "BY_COMMAND");
     if (field == nullptr) return;

@@ -1,4 +1,4 @@
-// What a step finds of earlier ones: velocities that were selected for another move, an INPOS that stands.
+// Effects of earlier steps: velocities selected for another move, an INPOS that is already 1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
-/// V, A and T: what a move to a place takes besides the place.
+/// V, A and T: the parameters of a move besides its position.
 constexpr std::array<Group, 3> kGroups = {Group::v, Group::a, Group::t};
 
 struct Selected {
     std::uint8_t index = 0;   ///< 0: written to V_SOLL itself
-    std::uint32_t value = 0;  ///< what was written
+    std::uint32_t value = 0;  ///< the written value
     bool for_move = false;    ///< selected together with a move
     Span span;
 
@@ -179,7 +179,7 @@ class SelectionWalk {
     std::set<std::pair<std::uint32_t, std::size_t>> said_;
 };
 
-/// Whether an order may have come since INPOS was seen last.
+/// Whether an order may have been sent since INPOS was last tested.
 struct InPosState {
     bool known = false;
     bool may_move = false;
@@ -228,15 +228,15 @@ class InPosWalk {
             .notes.push_back({before_.seen, "INPOS came here"});
     }
 
-    /// Whether anything but INPOS decides, where no other branch that asks for no INPOS takes the case: `ON
-    /// Guard`, `IF Guard THEN` in front, `AND NOT Guard`.
+    /// Whether something other than INPOS decides, if no other branch without INPOS takes the case: `ON
+    /// Guard`, a preceding `IF Guard THEN`, `AND NOT Guard`.
     bool asks_for_more(const Truth& when) const {
         const Truth left = ~guards();
         for (const std::size_t bit :
              {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{4}, std::size_t{5},
               std::size_t{kTimerZero}, std::size_t{kCounterZero}}) {
             const std::size_t other = std::size_t{1} << bit;
-            const Truth off = ~truth_of_bit(bit) & left & (left >> other);  // both cases of the bit are left
+            const Truth off = ~truth_of_bit(bit) & left & (left >> other);  // both cases of the bit remain
             if (((when ^ (when >> other)) & off).any()) return true;
         }
         return false;

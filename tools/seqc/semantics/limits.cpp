@@ -10,7 +10,8 @@ namespace {
 constexpr std::uint8_t kUndervoltageHandling = 23;  // UV_HANDLE of the MAC800 (004)
 constexpr std::uint8_t kHighestTemperature = 31;    // DEGCMAX of the MAC800 (004)
 
-/// What happens at the limit that a register sets; nullptr if it sets none, or if it shows in ERROR.
+/// The motor's reaction at the limit set by a register; nullptr if it sets none, or if the violation sets
+/// ERROR.
 const char* limit_of(const registers::Register& reg, registers::Model model) {
     if (reg.number == registers::MIN_P_IST || reg.number == registers::MAX_P_IST)
         return "a motor that leaves its position limits stops";
@@ -47,7 +48,7 @@ bool has_time_limit(const StepPlan& step) {
 
 namespace {
 
-/// The first wait for INPOS that only INPOS can end, or nullptr; `waits`: there are any waits.
+/// The first wait for INPOS that only INPOS can end, or nullptr; `waits`: whether there is any wait.
 const Rule* endless_wait(const Plan& plan, bool& waits) {
     for (const StepPlan& step : plan.steps) {
         for (const Rule& rule : step.rules) {

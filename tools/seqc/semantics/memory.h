@@ -10,7 +10,7 @@
 
 namespace nplc::seqc {
 
-/// R_TRIG or F_TRIG of an input. It is armed when the input was off (on) in the scan before, in the same
+/// R_TRIG or F_TRIG of an input. It is armed when the input was off (on) in the previous scan of the same
 /// step.
 struct Edge {
     std::size_t bit = 0;
@@ -18,45 +18,45 @@ struct Edge {
     Span span;
     /// The cases that arm it for the next scan.
     Truth arming() const { return rising ? ~truth_of_bit(bit) : truth_of_bit(bit); }
-    /// The cases in which it holds if it is armed.
+    /// The cases in which it is true if it is armed.
     Truth seen() const { return ~arming(); }
 };
 
-/// How a time limit stands in one half of BLINKING; the last is how it is without.
+/// State of a time limit in one half period of BLINKING; the last is the state without BLINKING.
 enum class Limit : std::uint8_t { runs, over, ends };
 
-/// What a step has to know of the scans before: each combination becomes a step of the table.
+/// A step's memory of earlier scans: each combination becomes a step of the table.
 struct Memory {
     std::vector<Edge> edges;
-    Truth held;  ///< of IF condition FOR time: in these cases the time runs
+    Truth held;  ///< of IF condition FOR time: cases in which the time runs
     std::uint16_t held_for = 0;
     std::uint8_t blinking = 0;  ///< outputs
     std::uint16_t blink_for = 0;
     std::uint16_t limit = 0;         ///< of WITHIN
-    std::optional<Span> timer_span;  ///< what uses the timer by itself: WITHIN, FOR or BLINKING
+    std::optional<Span> timer_span;  ///< the step's own use of the timer: WITHIN, FOR or BLINKING
 
     bool is_held() const { return held_for != 0; }
-    /// Combinations of armed edges, the running time of FOR, and what is left of WITHIN beside BLINKING.
+    /// Combinations of armed edges, the running time of FOR, and the rest of WITHIN with BLINKING.
     std::size_t states() const { return (counts_halves() ? 3 : 1) * remembered(); }
-    /// Of `memory`, a combination without the last, in a half of BLINKING.
+    /// State for `memory`, a combination without the last one, in a half period of BLINKING.
     std::size_t state_of(std::size_t memory, std::uint16_t half) const {
         return memory + remembered() * static_cast<std::size_t>(limit_in(half));
     }
     Limit limit_of(std::size_t state) const {
         return counts_halves() ? static_cast<Limit>(state / remembered()) : Limit::ends;
     }
-    /// BLINKING and WITHIN share the timer: the limit is counted in halves of the blinking.
+    /// BLINKING and WITHIN share the timer: the limit is counted in half periods.
     bool counts_halves() const { return limit != 0 && blink_for != 0; }
-    /// Until the limit has passed.
+    /// Half periods until the limit.
     std::uint16_t halves() const {
         return static_cast<std::uint16_t>((std::uint32_t{limit} + blink_for - 1) / blink_for);
     }
-    /// Odd ones are dark. Two go on by turns without a limit, or behind it.
+    /// Off in odd ones. Two alternate without a limit, or after it.
     std::uint16_t half_after(std::uint16_t half) const {
         const int last = counts_halves() ? halves() + 1 : 1;
         return static_cast<std::uint16_t>(half < last ? half + 1 : half - 1);
     }
-    /// What the timer is preset to for it.
+    /// The timer preset for a half period.
     std::uint16_t time_of(std::uint16_t half) const {
         if (limit_in(half) != Limit::ends || !counts_halves()) return blink_for;
         return static_cast<std::uint16_t>(limit - half * blink_for);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/step_walk.h"
+#include "syntax/names.h"
 
 namespace nplc::seqc {
 namespace {
@@ -14,24 +16,24 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
-/// The modes that selecting commands reach, and all others as one.
+/// The modes that selecting commands set, and one bit for all others.
 enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 8, kAnyMode = 15 };
 
-/// What may be true of the motor, with the places that made it so (length 0 where there is none).
+/// The possible state of the motor, with the places that caused it (length 0 if none).
 struct MotorState {
-    std::uint8_t modes = 0;  ///< in which modes it may be; 0: nothing is known to lead here
-    Span init;               ///< what took it to INIT
-    bool stopped = false;    ///< V_SOLL may be 0 from a STOP
+    std::uint8_t modes = 0;  ///< the possible modes; 0: no path leads here
+    Span init;               ///< the order that caused INIT
+    bool stopped = false;    ///< V_SOLL may be 0 because of a STOP
     Span stop;
     bool homing = false;  ///< it may be homing, or in STARTMODE after it (001 §4.4.13 - §4.4.15)
     Span home;
-    bool ends_in_position = false;  ///< STARTMODE is surely one in which IN_POS is set
-    Span start_mode;                ///< what set STARTMODE to another one
+    bool ends_in_position = false;  ///< STARTMODE is certainly one in which IN_POS is set
+    Span start_mode;                ///< the place that set STARTMODE to another one
 
     bool is_known() const { return modes != 0; }
-    /// Takes in what may hold on another way to the same place; true if that was news.
+    /// Merges the state of another path to the same place; true if it has changed.
     bool join(const MotorState& other);
-    /// What holds once this was sent.
+    /// Applies a sent order.
     void apply(const Send& send);
 };
 
@@ -86,7 +88,7 @@ void apply_number(Number number, Span span, MotorState& state) {
             state.stopped = false;
             break;
         case Number::home:
-            state.modes = kAnyMode;  // STARTMODE takes over when it is done
+            state.modes = kAnyMode;  // STARTMODE is entered at the end
             state.homing = true;
             state.home = span;
             break;
@@ -121,7 +123,7 @@ void MotorState::apply(const Send& send) {
     if (select->selection.group == Group::v) stopped = false;
 }
 
-/// Holds with INPOS where it does not hold without.
+/// True with INPOS and false without it.
 bool waits_for_in_position(const Truth& when) {
     const Truth with = when & truth_of_bit(kInPosBit);
     return (with & ~(when << (std::size_t{1} << kInPosBit))).any();
@@ -158,7 +160,7 @@ class MotorWalk {
         });
     }
 
-    /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
+    /// An error puts the motor in INIT (001 §3.2.35), so it may be in INIT where ERROR is handled.
     void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
         step_ = &step;
         if (step.own_error || (rule.when & truth_of_bit(kErrorBit)).any()) state.modes = kAnyMode;
@@ -224,7 +226,7 @@ class MotorWalk {
         }
     }
 
-    /// INIT brakes: it is right where the motor stands anyway.
+    /// INIT brakes: it is correct if the motor is at standstill anyway.
     std::string help_for_position(const Send& send, const Rule& rule, const MotorState& state) const {
         const std::string place = selected_beside(send, rule, Group::p);
         const std::vector<Selection> others = selected_with(send, rule);
@@ -238,10 +240,21 @@ class MotorWalk {
             names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(selection));
             writes += fmt::format("{}_SOLL := ..; ", letter_of(selection.group));
         }
-        const std::string first = fmt::format("INIT({}); POSITION({});", names, place);
+        const std::string_view entry = is_in_entry(send) ? "ENTRY " : "";
+        const std::string first = fmt::format("{0}INIT({1}); {0}POSITION({2});", entry, names, place);
         if (state.modes == kInit || !writable) return fmt::format("select it first: {}", first);
+        if (!entry.empty()) return fmt::format("select it first, if the motor may stop for it: {}", first);
         return fmt::format("write the value itself: {}POSITION({}); or, if the motor may stop for it, {}",
                            writes, place, first);
+    }
+
+    /// In the list behind ENTRY, where `first` could not stand as it is.
+    bool is_in_entry(const Send& send) const {
+        constexpr std::string_view kWord = "ENTRY";
+        std::string_view before = source_.substr(0, send.span.offset);
+        while (!before.empty() && std::isspace(static_cast<unsigned char>(before.back())) != 0)
+            before.remove_suffix(1);
+        return before.size() >= kWord.size() && same_name(before.substr(before.size() - kWord.size()), kWord);
     }
 
     /// Its value is the operator's, and no constant of another register (E026).
@@ -252,7 +265,7 @@ class MotorWalk {
         });
     }
 
-    /// All that the same statement selects, without positions.
+    /// The other selections of the same statement, without positions.
     static std::vector<Selection> selected_with(const Send& send, const Rule& rule) {
         std::vector<Selection> selections;
         for (const Send& other : rule.action.sends) {
@@ -264,10 +277,10 @@ class MotorWalk {
         return selections;
     }
 
-    /// As the program calls the register.
+    /// The program's name of the register.
     std::string name_of(const Selection& selection) const { return shown_register(symbols_, selection); }
 
-    /// What the same statement selects of a group, or "P..".
+    /// The register of a group that the same statement selects, or "P..".
     std::string selected_beside(const Send& send, const Rule& rule, Group group) const {
         for (const Send& other : rule.action.sends) {
             const auto also = select_command(other.command);
@@ -327,7 +340,7 @@ class MotorWalk {
         if (said != nullptr) said->notes.push_back({home.span, "homing begins here, in the same scan"});
     }
 
-    /// One word for each place in the source: an ENTRY is copied into many branches.
+    /// One report per source place: an ENTRY is copied into many branches.
     Diagnostic* complain(Code code, const Send& send, const Rule& rule, std::string message,
                          std::string help) {
         if (!is_news(send.span)) return nullptr;
@@ -350,7 +363,7 @@ class MotorWalk {
     std::string start_mode_;
     Report& report_;
     std::vector<std::uint32_t> said_;
-    std::vector<std::uint8_t> set_points_;  ///< registers that have the value of one
+    std::vector<std::uint8_t> set_points_;  ///< registers whose value is a set-point
 };
 
 }  // namespace

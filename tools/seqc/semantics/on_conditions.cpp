@@ -53,7 +53,7 @@ class Groups {
     std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
 };
 
-/// In the step that it leads to it does nothing.
+/// In its target step it has no effect.
 void warn_if_nowhere(const OnCondition& on, Scope& scope) {
     Steps left = on.steps;
     for (std::size_t i = 0; i < scope.steps().size(); ++i) {
@@ -81,7 +81,9 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
     for (const ast::OnCondition& written : program.on_conditions) {
         const std::size_t errors = scope.report().error_count() + scope.faulty_names_met();
         OnCondition on{&written, scope.branch_truth(written.condition), {}};
-        if (on.when.none() && scope.report().error_count() + scope.faulty_names_met() == errors) {
+        const bool is_sound = scope.report().error_count() + scope.faulty_names_met() == errors;
+        if (!is_sound) on.when.reset();  // what it stands for is not known: it takes no case of others
+        if (on.when.none() && is_sound) {
             scope.report().add("W001", written.condition.span, "this condition never holds",
                                "it contradicts itself: mend it, or take the line out");
         }

@@ -11,16 +11,16 @@
 
 namespace nplc::seqc {
 
-/// An ON condition with the steps in which it holds, by their numbers.
+/// An ON condition with the numbers of the steps it applies to.
 struct OnCondition {
     const ast::OnCondition* written = nullptr;
     Truth when;
     std::bitset<64> steps;
-    bool covers_one = false;  ///< a step beside the one that it leads to
-    bool may_act = false;     ///< those before it leave it a case in one of them
+    bool covers_one = false;  ///< a step other than its target
+    bool may_act = false;     ///< earlier conditions leave it a case in one of them
 };
 
-/// Those of the program, the first one first. `fault`: the step of ON ERROR, which only its name covers.
+/// The program's ON conditions in order. `fault`: the step of ON ERROR, which is covered only by name.
 std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope,
                                        std::optional<std::uint8_t> fault);
 

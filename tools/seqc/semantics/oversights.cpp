@@ -18,7 +18,7 @@ namespace {
 using protocol::fastmac::Group;
 using protocol::fastmac::Number;
 
-/// The makers' data sheets; a MAC800 above it stops with an error (004).
+/// From the manufacturers' data sheets; a MAC800 above it stops with an error (004).
 constexpr double kTopSpeedSmall = 4000;
 constexpr double kTopSpeedMac800 = 3600;
 
@@ -27,7 +27,7 @@ bool is_number(const Send& send, Number number) {
            static_cast<Number>(send.command & 0x1F) == number;
 }
 
-/// Holds when the bit is 1 and not when it is 0.
+/// True when the bit is 1 and false when it is 0.
 bool waits_for(const Truth& when, std::size_t bit) {
     const Truth with = when & truth_of_bit(bit);
     return (with & ~(when << (std::size_t{1} << bit))).any();
@@ -45,7 +45,7 @@ class Oversights {
     void run() {
         check_speeds();
         check_unset_registers();
-        if (has_terms_) return;  // they may do what is missing
+        if (has_terms_) return;  // the terms may do what is missing
         check_presets(kTimerZero, "W020", "TIMER.Q", "the timer", "TIMER := T#500ms; on the way to the step");
         check_presets(kCounterZero, "W020", "COUNTER.Q", "the counter",
                       "COUNTER := 5; on the way to the step");
@@ -106,7 +106,8 @@ class Oversights {
         return selection && selection->group == group;
     }
 
-    /// A program that sets none relies on the motor's own; a name without a value says that it means to.
+    /// A program without such values relies on the motor's own; a name without a value states that
+    /// explicitly.
     void check_unset_registers() {
         if (symbols_.drive != nullptr) return;
         std::set<std::pair<Group, std::uint8_t>> set;
@@ -164,7 +165,7 @@ class Oversights {
         });
     }
 
-    /// A step and its copies are one.
+    /// A step and its copies count as one.
     template <class Test>
     bool any_copy(const StepPlan& step, const Test& test) const {
         return std::any_of(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& other) {
@@ -177,8 +178,8 @@ class Oversights {
                            [&](const ast::OnCondition& on) { return on.condition.span == condition; });
     }
 
-    /// A branch of the step itself: neither what ON says for many steps, nor what an input sends to the fault
-    /// step.
+    /// A branch of the step itself: neither an ON condition for many steps, nor an input that leads to the
+    /// fault step.
     bool is_exit(const StepPlan& step, std::uint8_t next, const Truth& when, Span condition) const {
         if (is_of_on(condition) || (!step.own_error && (when & ~truth_of_bit(kErrorBit)).none()))
             return false;
@@ -190,7 +191,7 @@ class Oversights {
 
     bool is_exit(const StepPlan& step, const Rule& rule, const RulePart* but = nullptr) const {
         if (!leaves(step, rule)) return false;
-        if (step.is_helper) return true;  // on its way to where another step's branch goes
+        if (step.is_helper) return true;  // on the way to the target of another step's branch
         if (rule.parts.empty()) return is_exit(step, *rule.action.next, rule.when, rule.condition);
         return std::any_of(rule.parts.begin(), rule.parts.end(), [&](const RulePart& part) {
             return &part != but && is_exit(step, *rule.action.next, part.when, part.condition);
@@ -232,7 +233,7 @@ class Oversights {
         for (const StepPlan& step : plan_.steps) {
             const bool is_entered =
                 any_copy(step, [&](const StepPlan& copy) { return entered.test(copy.number); });
-            // An empty step is an end, unless the program goes on in a step that nothing leads to.
+            // An empty step is an end, unless the program continues in an unreachable step.
             if (step.is_copy || !is_entered || any_copy(step, leads_on) ||
                 (!any_copy(step, does_something) && !has_lost_step()))
                 continue;
@@ -246,7 +247,8 @@ class Oversights {
         }
     }
 
-    /// An error stays until RESET_ERROR is sent, and a condition that does not name ERROR means NOT ERROR.
+    /// An error persists until RESET_ERROR is sent, and a condition that does not name ERROR implies NOT
+    /// ERROR.
     void check_reset() {
         const Rule* reset = nullptr;
         bool under_error = false;
@@ -276,7 +278,7 @@ class Oversights {
         return found == plan_.steps.end() ? nullptr : &*found;
     }
 
-    /// Also where another condition leads to the same step.
+    /// Also if another condition leads to the same step.
     static const RulePart* timer_exit(const StepPlan& step) {
         for (const Rule& rule : step.rules) {
             if (!leaves(step, rule)) continue;
@@ -287,8 +289,8 @@ class Oversights {
         return nullptr;
     }
 
-    /// A step that waits for the timer is entered while the time limit of the step before it runs, and the
-    /// two do not lead to the same step.
+    /// A step that waits for the timer is entered while the time limit of the previous step runs, and both
+    /// lead to different steps.
     void check_watchdogs() {
         for_each_rule([&](const StepPlan& from, const Rule& rule) {
             if (!leaves(from, rule) || rule.action.timer || (rule.when & ~truth_of_bit(kTimerZero)).none())

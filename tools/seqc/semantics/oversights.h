@@ -6,7 +6,7 @@
 
 namespace nplc::seqc {
 
-/// What a program most likely forgot although each of its lines is right: a timer that is never set, a step
+/// Reports probable omissions in a program whose lines are all valid: a timer that is never preset, a step
 /// without exit, an error that is never reset.
 void check_oversights(const ast::Program& program, const Plan& plan, const Symbols& symbols,
                       const std::vector<DeclaredSetPoint>& points, Report& report);

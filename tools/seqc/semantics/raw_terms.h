@@ -6,8 +6,8 @@
 
 namespace nplc::seqc {
 
-/// TERM lines that a gateway refuses, or that stand behind the table's end. `drive`: whose registers they
-/// are, or null.
+/// Reports TERM lines that a gateway refuses, or that are behind the table's end. `drive`: the drive with
+/// these registers, or null.
 void check_raw_terms(const Plan& plan, const registers::DriveModel* drive, Report& report);
 
 }  // namespace nplc::seqc

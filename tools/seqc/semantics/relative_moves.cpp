@@ -11,6 +11,8 @@
 namespace nplc::seqc {
 namespace {
 
+constexpr double kNothing = 1e-6;  // counts; what working out with fractions leaves
+
 using protocol::fastmac::Group;
 using protocol::fastmac::Number;
 
@@ -87,12 +89,16 @@ class RelativeWalk {
                             ? ""
                             : fmt::format(" ({:.4g} {})", counts / rounding->per_unit, rounding->unit),
                         (rounding->lost < 0) != rounding->is_negative ? "far" : "short"),
-            "let one move of each round make it good, as in Last AT P2 := 360 deg - 6 * Pitch;");
+            rounding->makes_good
+                ? "what the moves of a round come to is no whole number of counts: choose a SCALE with which "
+                  "it is, or find the place anew with a sensor"
+                : "let one move of each round make it good, as in Last AT P2 := 360 deg - 6 * Pitch;");
         d.notes.push_back({selection.span, "the move is here"});
         if (since.length != 0) d.notes.push_back({since, "positions become relative here"});
     }
 
-    /// Of a value that the program gives to P1..P8; null if each is exact, or made good by another.
+    /// The rounding of a value that the program writes to P1..P8; null if each is exact or compensated by
+    /// another.
     const Rounding* rounding_of(std::uint8_t index) const {
         const Rounding* found = nullptr;
         for_each_send(plan_, [&](const Send& send) {
@@ -101,7 +107,8 @@ class RelativeWalk {
             for (const Rounding& rounding : roundings_) {
                 const bool inside = rounding.span.offset >= send.span.offset &&
                                     rounding.span.offset < send.span.offset + send.span.length;
-                if (inside && rounding.lost != 0 && !rounding.is_made_good && found == nullptr)
+                if (inside && std::fabs(rounding.lost) > kNothing && !rounding.is_made_good &&
+                    found == nullptr)
                     found = &rounding;
             }
         });

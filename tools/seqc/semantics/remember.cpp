@@ -91,7 +91,7 @@ class Remembering {
         memory_.held_for = *time;
     }
 
-    /// WITHIN counts the halves of one BLINKING.
+    /// WITHIN counts the half periods of one BLINKING.
     void add_blinking(const ast::Blinking& blinking) {
         const bool beside_limit = memory_.limit != 0 && memory_.blink_for == 0;
         if (!beside_limit) use_timer(blinking.span, help_of_blinking());

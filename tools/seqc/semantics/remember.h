@@ -6,11 +6,11 @@
 
 namespace nplc::seqc {
 
-/// What the step's conditions and outputs ask it to know of earlier scans; reports what cannot be: two that
-/// use the timer, edges of what is no input.
+/// The memory that the step's conditions and outputs need of earlier scans; reports conflicts: two users of
+/// the timer, edges of a signal that is no input.
 Memory memory_of(const ast::Step& step, Scope& scope);
 
-/// Outputs that SET and RESET switch: none of them may stand in an OUT, and each needs both.
+/// Checks outputs that SET and RESET switch: none may be in an OUT, and each needs both.
 void check_latched_outputs(const ast::Program& program, Scope& scope);
 
 }  // namespace nplc::seqc

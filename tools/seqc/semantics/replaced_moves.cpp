@@ -38,8 +38,8 @@ Motion motion_of(const Send& send) {
     }
 }
 
-/// Homing that another order ends is W014's; a velocity behind a velocity is one motion, and one before HOME
-/// selects.
+/// Homing that another order ends is reported as W014; a velocity after a velocity is one motion, and one
+/// before HOME selects.
 bool replaces(Motion later, Motion earlier) {
     if (earlier == Motion::velocity) return later == Motion::place || later == Motion::end;
     return earlier == Motion::place;
@@ -68,7 +68,7 @@ void judge(const Rule& rule, std::set<std::uint32_t>& said, Report& report) {
 
 }  // namespace
 
-/// Relative positions add up, so two of them may be meant.
+/// Relative positions add up, so two of them may be intended.
 void check_replaced_moves(const Plan& plan, Report& report) {
     bool relative = false;
     for_each_send(plan, [&](const Send& send) { relative = relative || is_relative(send); });

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kInputs = 6;
 constexpr std::size_t kOutputs = 4;
 
-/// IN0, %IX0.0 and the like: the number behind the address, or nothing if it is no address at all.
+/// IN0, %IX0.0 and the like: the number in the address, or empty if it is no address.
 std::optional<std::size_t> address_number(std::string_view text, char direction) {
     const std::string address = upper(text);
     const std::string_view plain = direction == 'I' ? "IN" : "OUT";
@@ -37,7 +37,7 @@ std::optional<std::size_t> address_number(std::string_view text, char direction)
     return number;
 }
 
-/// I1, DI1, X1, O1, DO1: how other controllers call their terminals.
+/// I1, DI1, X1, O1, DO1: names of terminals on other controllers.
 bool is_terminal_elsewhere(std::string_view name) {
     constexpr auto kTerminals = std::to_array<std::string_view>(
         {"I", "DI", "X", "E", "INPUT", "IN_", "O", "DO", "Q", "Y", "A", "OUTPUT", "OUT_"});
@@ -109,8 +109,8 @@ void Scope::declare_motor(const ast::Program& program) {
     };
     std::stable_sort(names.begin(), names.end(),
                      [&](std::string_view a, std::string_view b) { return shared(a) > shared(b); });
-    std::string help =
-        suggestion(program.motor->text, names);  // of those as near, that with the same first digits
+    std::string help = suggestion(program.motor->text,
+                                  names);  // among equally similar ones, those with the same first digits
     report_.add("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
                 help.empty() ? motor_names_text() : fmt::format("{} ({})", help, motor_names_text()));
 }
@@ -273,7 +273,7 @@ void Scope::declare_motor_variables(const ast::Program& program) {
     }
 }
 
-/// Values below may count on what the register really gets, in the unit of its own value.
+/// Later values may use the register's actual value, in the unit of its own value.
 void Scope::declare_value_of(const ast::Variable& variable, const registers::Register& reg,
                              std::uint32_t bits) {
     const auto written = constants_.worked_out(*variable.value, &reg, model_);
@@ -416,7 +416,7 @@ Truth Scope::truth_of(const ast::Expression& expression) {
         case Kind::rising:
         case Kind::falling:
             return truth_of_edge(expression);
-        case Kind::step:  // of properties alone
+        case Kind::step:  // in properties only
             return {};
         case Kind::negation:
             return ~truth_of(expression.operands.front());
@@ -483,7 +483,7 @@ std::optional<std::uint8_t> Scope::written_number(const ast::Step& step) {
     return std::nullopt;
 }
 
-/// AT first; the others take the lowest free numbers from 1 on. 0 is what POWER_UP has.
+/// AT first; the others get the lowest free numbers from 1 on. 0 is POWER_UP.
 void Scope::number_steps() {
     numbers_.assign(steps_.size(), kNone);
     std::array<const ast::Step*, kLastNamed + 1U> owners{};

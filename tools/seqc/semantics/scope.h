@@ -16,16 +16,16 @@
 
 namespace nplc::seqc {
 
-/// SET_POINT, and what became of it.
+/// A SET_POINT with the result of its checks.
 struct DeclaredSetPoint {
     const ast::SetPoint* written = nullptr;
     set_points::SetPoint point;
     const registers::Register* reg = nullptr;  ///< of a motor's register
-    bool is_decided = false;                   ///< it is known what it is for
-    bool is_sound = true;                      ///< nothing was reported
+    bool is_decided = false;                   ///< its use is known
+    bool is_sound = true;                      ///< no error was reported
 };
 
-/// The names of a program and the motor it is for.
+/// The names of a program and its motor.
 class Scope {
   public:
     Scope(const ast::Program& program, std::string_view source, Report& report, Compilation& result);
@@ -34,7 +34,7 @@ class Scope {
     const Symbols& symbols() const { return result_.symbols; }
     /// In order of declaration.
     const std::vector<const ast::Step*>& steps() const { return steps_; }
-    /// The number of `steps()[index]`; 62, which is no step's, if there are too many.
+    /// The number of `steps()[index]`; 62, which is no valid step, if there are too many.
     std::uint8_t number_of(std::size_t index) const { return numbers_[index]; }
     /// Null if no named step has this number.
     const ast::Step* step_numbered(std::uint8_t number) const;
@@ -45,60 +45,59 @@ class Scope {
     std::optional<std::size_t> input(const ast::Name& name);
     std::optional<std::size_t> output(const ast::Name& name);
 
-    /// A register by a variable's or the manual's name, or by number; reports what a table cannot reach.
+    /// A register by a variable's or the manual's name, or by number; reports one that a table cannot write.
     const registers::Register* reg(const ast::Name& name);
     const registers::Register* reg(const ast::Value& number);
-    /// The same without a word: for telling a register from a command.
+    /// The same without reports: to distinguish a register from a command.
     const registers::Register* find_register(std::string_view name) const;
-    /// Adds where a register's name was declared, if it is one of VAR_MOTOR.
+    /// Adds the declaration of a register's name, if it is one of VAR_MOTOR.
     void note_declaration(Diagnostic& diagnostic, std::string_view name) const;
-    /// How often a name was met whose faulty declaration was reported: it is not reported again.
+    /// Number of uses of names with a faulty declaration that was reported: these are not reported again.
     std::size_t faulty_names_met() const { return faulty_names_met_; }
     bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
     bool is_step(std::string_view name) const;
-    /// Steps under one name, a bit for each by number.
+    /// Steps under one name, as a bit mask by number.
     void add_group(std::string_view name, std::uint64_t steps) {
         result_.symbols.groups.push_back({std::string(name), steps});
     }
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
     const ast::Constant* constant(std::string_view name) const { return constants_.find(name); }
-    /// "a velocity", by the unit of a value; empty where the unit says nothing.
+    /// "a velocity", by the unit of a value; empty if the unit does not tell.
     std::string_view kind_of(const ast::Value& value) const;
 
-    /// What a value comes to, its names looked up; reports what is wrong with it. `reg`: whose value it is.
+    /// Evaluates a value with its names; reports errors. `reg`: the value's register.
     std::optional<ast::Value> worked_out(const ast::Value& value, const registers::Register* reg = nullptr);
-    /// The bits to write, after unit, range and rounding; reports what does not fit.
-    /// `shown` is what the program calls the register.
+    /// The bits to write, after unit, range and rounding; reports values that do not fit. `shown`: the
+    /// program's name of the register.
     std::optional<std::uint32_t> value(const ast::Value& written, const registers::Register& reg,
                                        std::string_view shown);
 
-    /// What a statement takes from a set-point: its number, 1 and on. The first use of one without AT says
-    /// what it is for. 0: it was reported why not.
+    /// The number of the set-point in a value, 1 and on. The first use of one without AT determines its use.
+    /// 0: an error was reported.
     bool is_set_point(const ast::Value& value) const;
     std::uint8_t set_point_for(const ast::Value& value, set_points::ValueKind kind,
                                const registers::Register* reg);
     const set_points::SetPoint& set_point(std::uint8_t number) const {
         return set_points_[number - 1U].point;
     }
-    /// In order of declaration, those that nothing uses included.
+    /// In order of declaration, unused ones included.
     const std::vector<DeclaredSetPoint>& set_points() const { return set_points_; }
-    /// Reports a constant for the register of a set-point.
+    /// Reports a constant written to the register of a set-point.
     bool refuse_write(const registers::Register& reg, Span span);
 
-    /// Reports what the drive cannot do; true if there is nothing to report.
+    /// Reports orders that the drive does not support; true if none.
     bool is_for_drive(const Send& send);
 
     /// Register values of VAR_MOTOR, in order.
     const std::vector<Send>& initial_values() const { return initial_values_; }
 
-    /// What R_TRIG and F_TRIG mean from now on: which of these edges are armed. Null: nothing, it is
-    /// reported.
+    /// Sets the armed edges for R_TRIG and F_TRIG. Null: none allowed, and their use is reported.
     void see_edges(const std::vector<Edge>* edges, std::size_t armed) {
         edges_ = edges;
         armed_ = armed;
     }
     Truth truth_of(const ast::Expression& expression);
-    /// What a branch with this condition asks for: without ERROR unless it names it.
+    /// The cases of a branch with this condition: without ERROR unless it names it.
     Truth branch_truth(const ast::Expression& condition);
 
   private:
@@ -131,8 +130,9 @@ class Scope {
     bool decide_register(DeclaredSetPoint& declared, const registers::Register& reg);
     bool decide_preset(DeclaredSetPoint& declared);
     bool is_sound_range(DeclaredSetPoint& declared);
+    bool is_default_on_grid(const DeclaredSetPoint& declared);
     bool is_new_name(const ast::Name& name);
-    /// In the program as its INCLUDEs put it together.
+    /// In the order of the program with its INCLUDEs.
     bool stands_before(Span a, Span b) const;
     std::string help_for_step(std::string_view name) const;
     bool is_faulty(std::string_view name);
@@ -169,20 +169,20 @@ class Scope {
     std::optional<LengthUnit> length_;
     Span scale_span_;
     std::vector<const ast::Step*> steps_;
-    std::unordered_map<std::string, std::size_t> step_places_;  ///< in `steps_`, by upper-case name
+    std::unordered_map<std::string, std::size_t> step_places_;  ///< upper-case name to index in `steps_`
     std::vector<std::uint8_t> numbers_;
     bool steps_missing_ = false;
     bool names_missing_ = false;
     bool scale_missing_ = false;
-    std::unordered_map<std::uint32_t, std::size_t> declared_;  ///< the order of declarations, by offset
+    std::unordered_map<std::uint32_t, std::size_t> declared_;  ///< order of declarations, by offset
     std::vector<std::string_view> sequences_;
     std::vector<std::string_view> groups_;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;
     Constants constants_;
-    std::unordered_set<std::string> without_unit_;  ///< of which it was said that they have no unit
-    std::unordered_set<std::string> faulty_;        ///< declared, but with a mistake; upper case
+    std::unordered_set<std::string> without_unit_;  ///< registers already reported as values without a unit
+    std::unordered_set<std::string> faulty_;        ///< declared with an error; upper case
     std::size_t faulty_names_met_ = 0;
     std::vector<Send> initial_values_;
     const std::vector<Edge>* edges_ = nullptr;
@@ -190,13 +190,13 @@ class Scope {
     std::vector<DeclaredSetPoint> set_points_;
 };
 
-/// A number as a register holds it.
+/// A number in a register's format.
 std::uint32_t bits_of(std::int32_t number, const registers::Register& reg);
 
-/// The number that raw bits stand for in a register.
+/// The number that raw bits represent in a register.
 double number_of_bits(double bits, registers::Format format);
 
-/// Whether a condition names ERROR or ANY ERROR; otherwise it means NOT ERROR as well.
+/// Whether a condition names ERROR or ANY ERROR; otherwise it implies NOT ERROR.
 bool names_error(const ast::Expression& expression);
 
 }  // namespace nplc::seqc

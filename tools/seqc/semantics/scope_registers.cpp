@@ -21,7 +21,7 @@ constexpr std::uint8_t kLastReachable = 127;
 constexpr double kWorthAWarning = 0.01;
 constexpr double kShownWhole = 100'000;
 
-/// Large numbers in whole ones, cut towards zero so that what it shows does fit.
+/// Large numbers as integers, truncated towards zero so that the shown limit is valid.
 std::string limit_text(double value) {
     if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
         return fmt::format("{:.0f}", std::trunc(value));
@@ -36,7 +36,7 @@ std::string some_of(std::span<const std::string_view> names) {
                        shown.size() < names.size() ? " and others of the register map" : "");
 }
 
-/// HOME1_MODE for HOME_MODE, which has two parts that take it.
+/// HOME1_MODE for HOME_MODE, which has two parts with this mode.
 std::string help_of_parts(registers::Model model, const Register* reg, std::string_view text) {
     std::vector<std::string> ways;
     if (reg == nullptr) return {};
@@ -49,7 +49,7 @@ std::string help_of_parts(registers::Model model, const Register* reg, std::stri
     return fmt::format("say of which part of {} it is: {}", reg->name, fmt::join(ways, " or "));
 }
 
-/// P9 and the like: nothing that a misspelling could explain.
+/// P9 and the like: not explained by a misspelling.
 bool is_set_register(std::string_view name) {
     return name.size() == 2 && std::string_view("PVATLZpvatlz").find(name[0]) != std::string_view::npos &&
            name[1] >= '0' && name[1] <= '9';
@@ -85,7 +85,7 @@ void Scope::report_refusal(const Send& send, std::string message) {
         .notes.push_back({motor_span_, "the drive is chosen here"});
 }
 
-/// Whether it is there at all, whatever the value.
+/// Whether the drive has the register at all, for any value.
 bool Scope::is_on_drive(const Register& reg, Span span) {
     if (drive_ == nullptr) return true;
     const Send zero{&reg, 0, 0, span};
@@ -96,7 +96,7 @@ bool Scope::is_on_drive(const Register& reg, Span span) {
     return false;
 }
 
-/// What becomes of a value that the drive can take.
+/// The converted value for the drive.
 void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::string_view shown_name,
                              double exact, double per_unit, std::uint32_t bits) {
     const auto drive = drive_->family->value_of(*drive_, reg, bits);
@@ -107,8 +107,9 @@ void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::
         fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
                     static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(),
                     text_of(*drive), drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
+    // The gateway adds distances up in counts and rounds each target for the drive by itself.
     result_.roundings.push_back(
-        {value.span, what, exact - drive->raw, per_unit, std::string(unit), exact < 0});
+        {value.span, what, exact - number_of_bits(bits, reg.format), per_unit, std::string(unit), exact < 0});
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
         report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
@@ -123,7 +124,7 @@ void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) cons
         {variable->span, fmt::format("'{}' is {}, declared here", variable->name, variable->reg->name)});
 }
 
-/// What a value's limits rest on: the register behind a name, the length behind a unit.
+/// Notes for a value's limits: the register behind a name, the length behind a unit.
 void Scope::note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const {
     note_declaration(diagnostic, shown);
     if (const ast::Constant* constant = constants_.find(value.name.text))
@@ -251,7 +252,7 @@ std::string_view Scope::kind_of(const ast::Value& value) const {
     return {};
 }
 
-/// A name where a value belongs.
+/// Reports a name where a value is required.
 void Scope::report_no_value(const ast::Name& name, const Register* reg) {
     const std::string_view text = name.text;
     std::vector<std::string_view> names = constants_.names();
@@ -261,6 +262,15 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
             if (field.width == 1 || field.values.empty()) names.push_back(field.name);
             for (const registers::NamedValue& one : field.values) names.push_back(one.name);
         }
+    }
+    if (std::any_of(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& declared) {
+            return same_name(declared.written->name.text, text);
+        })) {
+        report_.add(
+            "E021", name.span, fmt::format("'{}' is a set-point, and a constant belongs here", text),
+            "a set-point is for := alone; a time limit of the operator's is ENTRY TIMER := Limit; and "
+            "TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
+        return;
     }
     std::string help = suggestion(text, names);
     if (find_register(text) != nullptr)
@@ -289,6 +299,8 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
     if (!is_on_drive(reg, written.span)) return std::nullopt;
     const auto result = worked_out(written, &reg);
     if (!result) return std::nullopt;
+    const std::size_t roundings = result_.roundings.size();
+    const bool makes_good = written.kind != ast::Value::Kind::literal && !constants_.registers_met().empty();
     const ast::Value& value = *result;
     double number = value.number;
     std::string_view unit = value.unit.text;
@@ -326,7 +338,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
     }
     const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
-    const bool vanishes = raw == 0 && exact != 0;  // said in the words for any motor
+    const bool vanishes = raw == 0 && exact != 0;  // reported with the text for any motor
     if (!vanishes && !is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
     const bool by_drive =
         drive_ != nullptr && raw != 0 && drive_->family->value_of(*drive_, reg, bits).has_value();
@@ -334,12 +346,14 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
         note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
     else if (!note_rounding(value, reg, shown_name, exact, raw, *per_unit))
         return std::nullopt;
+    for (std::size_t i = roundings; i < result_.roundings.size(); ++i)
+        result_.roundings[i].makes_good = makes_good;
     return bits;
 }
 
 namespace {
 
-/// A place, velocity or acceleration that SCALE makes one of the machine.
+/// A position, velocity or acceleration to which SCALE applies.
 bool is_of_machine(const Register& reg) {
     const auto selection = selection_of(reg.number);
     using protocol::fastmac::Group;
@@ -359,7 +373,7 @@ std::string short_text(double value) {
 
 }  // namespace
 
-/// 80 may be counts or millimetres.
+/// Warns: 80 may be counts or millimetres.
 void Scope::warn_without_unit(const ast::Value& value, const Register& reg, std::string_view shown_name,
                               double raw) {
     if (!length_ || !is_of_machine(reg) || !without_unit_.insert(std::string(shown_name)).second) return;
@@ -396,7 +410,7 @@ bool Scope::takes_zero(const Register& reg) const {
     return drive_ == nullptr || refusal_of(*drive_, {&reg, 0, 0, {}}).empty();
 }
 
-/// False if nothing is left of the value: a motor without acceleration, say, would never stop.
+/// False if the value is rounded to nothing: a motor without acceleration, for example, would never stop.
 bool Scope::note_rounding(const ast::Value& value, const Register& reg, std::string_view shown_name,
                           double exact, double raw, double per_unit) {
     const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
@@ -419,7 +433,7 @@ bool Scope::note_rounding(const ast::Value& value, const Register& reg, std::str
         return false;
     }
     result_.roundings.push_back({value.span, what, exact - raw, per_unit, std::string(unit), exact < 0});
-    if (std::fabs(error) > kWorthAWarning) {
+    if (std::fabs(error) > kWorthAWarning && !report_.has("W039", value.span)) {
         Diagnostic& d = report_.add("W002", value.span,
                                     fmt::format("the register is too coarse for this value: {}", what),
                                     meant_as_thousands(text(value.span))

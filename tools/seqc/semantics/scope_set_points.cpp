@@ -6,6 +6,7 @@
 #include "semantics/actions.h"
 #include "semantics/drive.h"
 #include "semantics/scope.h"
+#include "set_points/values.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -25,6 +26,13 @@ std::string use_text(ValueKind kind, const Register* reg) {
 
 bool is_whole(double value) {
     return std::floor(value) == value;
+}
+
+/// `low`: the lower end in the set-point's unit, as written.
+void lay_grid(set_points::SetPoint& point, double low) {
+    constexpr double kNothing = 1e-9;
+    if (std::fabs(set_points::shown_value(point, point.lowest) - low) > kNothing * std::fabs(low))
+        point.grid_from = low;
 }
 
 }  // namespace
@@ -65,7 +73,7 @@ void Scope::declare_set_points(const ast::Program& program) {
                 "make constants of those that no operator changes");
 }
 
-/// POWER_UP writes it, as a value of VAR_MOTOR.
+/// POWER_UP writes it, like a value of VAR_MOTOR.
 void Scope::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
     const ast::SetPoint& written = *declared.written;
     const Register* target = written.register_number ? reg(*written.register_number) : reg(written.address);
@@ -134,7 +142,7 @@ bool Scope::is_set_point(const ast::Value& value) const {
            });
 }
 
-/// Its values as literals; a unit that is left out is that of the others.
+/// Its values as literals; a missing unit is that of the others.
 std::optional<ast::SetPoint> Scope::worked_out(const ast::SetPoint& written, const Register* reg) {
     ast::SetPoint result = written;
     for (ast::Value* value : {&result.value, &result.low, &result.high}) {
@@ -170,7 +178,7 @@ bool Scope::decide(DeclaredSetPoint& declared, ValueKind kind, const Register* r
     return declared.is_sound;
 }
 
-/// A drive that can do both ends may not do what lies next to 0 between them: a speed too slow for it.
+/// A drive that supports both ends may not support values near 0 between them: a speed too low for it.
 bool Scope::is_for_drive_within(const ast::SetPoint& written, const Register& reg, std::int32_t low,
                                 std::int32_t high) {
     if (drive_ == nullptr) return true;
@@ -217,10 +225,13 @@ bool Scope::decide_register(DeclaredSetPoint& declared, const Register& reg) {
     const auto step = raw_per_unit(reg, model_, length_, written.step->unit.text);
     const bool same_unit = same_name(written.step->unit.text, point.unit) || written.step->is_raw;
     point.step = written.step->number * (same_unit ? 1 : step.value_or(0) / point.steps_per_unit);
+    const auto per_unit = raw_per_unit(reg, model_, length_, written.low.unit.text);
+    const bool is_own = same_name(written.low.unit.text, point.unit) || written.low.is_raw || !per_unit;
+    lay_grid(point, written.low.number * (is_own ? 1 : *per_unit / point.steps_per_unit));
     return true;
 }
 
-/// Of the timer or the counter; 0 presets nothing (001 §6.1.7).
+/// For the timer or the counter; 0 has no effect (001 §6.1.7).
 bool Scope::decide_preset(DeclaredSetPoint& declared) {
     const auto literal = worked_out(*declared.written, nullptr);
     if (!literal) return false;
@@ -258,6 +269,7 @@ bool Scope::decide_preset(DeclaredSetPoint& declared) {
     const bool seconds = same_name(written.step->unit.text, "s");
     const bool same_unit = same_name(written.step->unit.text, point.unit);
     point.step = written.step->number * (same_unit ? 1 : (seconds ? 1000 : 1) / point.steps_per_unit);
+    lay_grid(point, point.lowest / point.steps_per_unit);
     return true;
 }
 
@@ -280,11 +292,25 @@ bool Scope::is_sound_range(DeclaredSetPoint& declared) {
     }
     if (!written.step) return true;
     const double raw = point.step * point.steps_per_unit;
-    if (raw >= 0.5 && raw <= point.highest - point.lowest) return true;
+    if (raw >= 0.5 && raw <= point.highest - point.lowest) return is_default_on_grid(declared);
     report_.add("E047", written.step->span,
                 raw > 0 ? fmt::format("the STEP of '{}' does not fit its range", point.name)
                         : std::string("a STEP is above 0, in a unit of the value"),
                 "leave STEP out: then every value of the range is allowed");
+    return false;
+}
+
+/// Nobody could set it again.
+bool Scope::is_default_on_grid(const DeclaredSetPoint& declared) {
+    const set_points::SetPoint& point = declared.point;
+    if (set_points::is_on_grid(point, point.initial)) return true;
+    const std::string unit = point.unit.empty() ? "" : " " + point.unit;
+    report_
+        .add("E047", declared.written->value.span,
+             fmt::format("'{}' begins between two steps, so nobody can set it again", point.name),
+             fmt::format("write {}{}: steps are counted from the lower end of the range",
+                         set_points::grid_beside(point, point.initial), unit))
+        .notes.push_back({declared.written->step->span, "the STEP is here"});
     return false;
 }
 

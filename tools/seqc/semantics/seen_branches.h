@@ -10,20 +10,20 @@
 
 namespace nplc::seqc {
 
-/// The branches of a step that were looked at, and which rule has each case.
+/// The branches of a step processed so far, and the rule of each case.
 class SeenBranches {
   public:
     struct Branch {
         Truth when;
         Span condition;
         std::size_t choice;
-        std::size_t rule;  ///< of the step's, by what it does
+        std::size_t rule;  ///< index in the step's rules
     };
     std::vector<Branch> list;
 
     SeenBranches() { rule_of_.fill(kFree); }
 
-    /// Gives the cases to a rule; true if another one has some of them.
+    /// Assigns the cases to a rule; true if another one already has some of them.
     bool claim(const Truth& when, std::size_t rule) {
         bool contested = false;
         for (std::size_t c = when._Find_first(); c < kCases; c = when._Find_next(c)) {

@@ -25,8 +25,8 @@ class Expansion {
         refuse_same_names();
         if (program_.power_up) expand_step(*program_.power_up, {}, false);
         callers_.resize(program_.steps.size());
-        // Steps that a call adds are looked at in their turn. The bound is the table's, with room for its
-        // message.
+        // Steps added by a call are processed too. The limit is that of the table, with a margin for the
+        // error message.
         constexpr std::size_t kMost = 256;
         for (std::size_t i = 0; i < program_.steps.size() && i < kMost; ++i) {
             ast::Step step = std::move(program_.steps[i]);
@@ -58,7 +58,7 @@ class Expansion {
         return found == program_.sequences.end() ? nullptr : &*found;
     }
 
-    /// `inside`: the step belongs to a sequence, whose RETURNs are gone already.
+    /// `inside`: the step belongs to a sequence, whose RETURNs are already replaced.
     void expand_step(ast::Step& step, const std::vector<std::string>& callers, bool inside) {
         for (const Statement& statement : step.entry) {
             if (statement.kind == Statement::Kind::call || statement.kind == Statement::Kind::go_back)

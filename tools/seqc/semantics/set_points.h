@@ -8,7 +8,7 @@
 
 namespace nplc::seqc {
 
-/// Set-points that nothing uses, steps that take what there is not, and more than a gateway keeps with a
+/// Reports unused set-points, steps that take nonexistent ones, and more than a gateway can store with a
 /// table.
 void check_set_points(const Plan& plan, const std::vector<DeclaredSetPoint>& points, const Symbols& symbols,
                       Report& report);

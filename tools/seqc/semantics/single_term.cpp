@@ -68,7 +68,7 @@ class TermEncoder {
                 return add_negation(part);
             case Kind::rising:
             case Kind::falling:
-                scope_.truth_of(part);  // it is reported
+                scope_.truth_of(part);  // already reported
                 return;
             default:
                 return add_literal(part, true);
@@ -198,7 +198,7 @@ class TermEncoder {
     std::optional<Send> send_;
     const Statement* next_ = nullptr;
     const Statement* preset_ = nullptr;
-    const Statement* other_ = nullptr;  ///< the first that no register write can stand beside
+    const Statement* other_ = nullptr;  ///< the first statement that cannot be combined with a register write
 };
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace nplc::seqc {
 
-/// The one term that a TERM in symbols is (001 §6.1.5 - §6.1.8); reports what a single term cannot hold.
-/// `inside`: the number of the step it stands in, if it stands in one. After an error the bytes mean nothing
-/// but their step.
+/// Encodes a symbolic TERM as its single term (001 §6.1.5 - §6.1.8); reports parts that do not fit into a
+/// single term. `inside`: the number of the enclosing step, if any. After an error only the step in the bytes
+/// is valid.
 sequencer::TermBytes encode_term(const ast::SymbolicTerm& written, Span span,
                                  std::optional<std::uint8_t> inside, Scope& scope);
 

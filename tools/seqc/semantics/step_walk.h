@@ -6,8 +6,7 @@
 
 namespace nplc::seqc {
 
-/// Follows what may be true of the motor from step to step until nothing new turns up, then judges each rule.
-/// A Walk has
+/// Data-flow analysis of the motor from step to step until nothing changes, then judges each rule. A Walk has
 ///   State                      is_known(): some way leads here; join(other): true if that was news
 ///   enter(state, step, rule)   what is known besides where the rule's condition holds
 ///   apply(state, send)         what holds once this was sent

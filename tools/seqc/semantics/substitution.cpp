@@ -95,7 +95,7 @@ void Substitution::apply(std::vector<ast::Name>& names) const {
     for (ast::Name& name : names) apply(name);
 }
 
-/// What is wrong with an argument is told where it is given.
+/// Errors of an argument are reported at the call.
 void Substitution::apply(ast::Name& name) const {
     const ast::Argument* argument = argument_for(name.text);
     if (argument != nullptr && !argument->value) name = argument->name;
@@ -130,7 +130,7 @@ void Substitution::apply(Value& value) const {
         }
         return;
     }
-    // 360 deg / Stations: the parameter stands behind the last '/' of the unit.
+    // 360 deg / Stations: the parameter is after the last '/' of the unit.
     const std::size_t slash = value.unit.text.rfind('/');
     if (value.kind != Value::Kind::literal || slash == std::string_view::npos) return;
     const ast::Argument* argument = argument_for(value.unit.text.substr(slash + 1));

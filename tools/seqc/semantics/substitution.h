@@ -10,10 +10,10 @@
 
 namespace nplc::seqc {
 
-/// Arguments in the place of a sequence's parameters, and its steps' names in the program.
+/// Replaces a sequence's parameters by arguments, and its step names by those in the program.
 class Substitution {
   public:
-    /// As many arguments as parameters; what they point at must live on, and so must `texts`.
+    /// As many arguments as parameters; their data and `texts` must stay valid.
     Substitution(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,
                  std::deque<std::string>& texts);
 

@@ -6,7 +6,8 @@
 
 namespace nplc::seqc {
 
-/// What a term can test, as bit numbers of a case: the input image of 001 §6.1.9, then the two zeros.
+/// The bits that a term can test, as bit numbers of a case: the input image of 001 §6.1.9, then the two zero
+/// flags.
 enum Bit : std::size_t {
     kInput0 = 0,
     kInPosBit = 6,
@@ -18,7 +19,7 @@ enum Bit : std::size_t {
 
 inline constexpr std::size_t kCases = 1U << kBits;
 
-/// A condition as the set of cases in which it holds.
+/// A condition as the set of cases in which it is true.
 using Truth = std::bitset<kCases>;
 
 Truth truth_of_bit(std::size_t bit);
@@ -26,7 +27,7 @@ inline Truth always() {
     return Truth().set();
 }
 
-/// A product of bits: the cases whose bits under `care` equal `value`.
+/// A product (implicant): the cases whose bits under `care` equal `value`.
 struct Product {
     std::uint16_t value = 0;
     std::uint16_t care = 0;

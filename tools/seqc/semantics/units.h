@@ -16,8 +16,8 @@ struct LengthUnit {
     double per_revolution = 1;
 };
 
-/// How many of a register's raw steps one `unit` is; nothing if the unit does not fit the register. An empty
-/// unit is the raw step itself, and for the fixed-point formats the number 1.
+/// A register's raw steps per `unit`; empty if the unit does not fit the register. An empty unit is the raw
+/// step itself, and for the fixed-point formats the number 1.
 std::optional<double> raw_per_unit(const registers::Register& reg, registers::Model model,
                                    const std::optional<LengthUnit>& length, std::string_view written);
 
@@ -25,7 +25,7 @@ std::optional<double> raw_per_unit(const registers::Register& reg, registers::Mo
 std::vector<std::string> fitting_units(const registers::Register& reg,
                                        const std::optional<LengthUnit>& length);
 
-/// Whether some register takes it.
+/// Whether any register accepts it.
 bool is_known_unit(std::string_view unit);
 
 /// The units that fit a register, for messages.

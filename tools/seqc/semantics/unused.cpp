@@ -61,7 +61,7 @@ class Unused {
         return word;
     }
 
-    /// TERM lines may do what is missing.
+    /// TERM lines may use what seems unused.
     bool has_bytes() const {
         return !plan_.terms.empty() || std::any_of(plan_.steps.begin(), plan_.steps.end(),
                                                    [](const StepPlan& step) { return !step.terms.empty(); });
@@ -88,7 +88,7 @@ class Unused {
     }
 
     bool is_used(const ast::Name& name) const { return used_.contains(upper(name.text)); }
-    /// What stands in an included file is there for other programs too.
+    /// Names in an included file are also for other programs.
     bool is_shared(const ast::Name& name) const {
         return &sources_.file_at(name.span.offset) != &sources_.program();
     }
@@ -123,13 +123,14 @@ class Unused {
         return std::nullopt;
     }
 
-    /// Without a value it may say what tools are to call a register; not one that only commands reach.
+    /// Without a value it may only name the register for tools; not if it is a register that only commands
+    /// select.
     void check_register(const ast::Name& name, bool has_value) {
         const auto number = register_named(name);
         const auto place = number ? selection_of(*number) : std::nullopt;
         if (!place || is_shared(name)) return;
         const bool is_selected = selects_by_number_ || selected_.contains({place->group, place->index});
-        // A value below may count on it: Last AT P2 := 360 deg - 6 * Pitch.
+        // A later value may use it: Last AT P2 := 360 deg - 6 * Pitch.
         if (is_selected || is_used(name)) return;
         if (has_value) {
             report_.add(

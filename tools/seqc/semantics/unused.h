@@ -8,7 +8,7 @@
 
 namespace nplc::seqc {
 
-/// Values of the motor that nothing selects, and names that nothing uses.
+/// Reports values of the motor that no command selects, and unused names.
 void check_unused(const ast::Program& program, const Plan& plan, const Sources& sources,
                   const Symbols& symbols, Report& report);
 

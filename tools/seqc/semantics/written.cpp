@@ -29,7 +29,7 @@ void add_branches(const StepPlan& step, const Rule& rule, std::vector<Written::B
     }
 }
 
-/// ON conditions come before all that the step has itself.
+/// ON conditions come before the step's own branches.
 void sort_as_judged(std::vector<Written::Branch>& branches, const std::vector<Written::Everywhere>& first) {
     const auto place = [&](const Written::Branch& branch) {
         const bool is_own = std::none_of(first.begin(), first.end(),

@@ -6,7 +6,7 @@
 
 namespace nplc::seqc {
 
-/// `plan`: with the steps that the compiler makes.
+/// `plan`: including compiler-generated steps.
 Written written_of(const ast::Program& program, const Plan& plan, const std::vector<Send>& initial_values);
 
 }  // namespace nplc::seqc

@@ -21,14 +21,14 @@ using Json = nlohmann::json;
 constexpr std::int64_t kMostLines = 0x7FFF'FFFF;
 constexpr std::int64_t kMostBytes = 0x7FFF'FFFF;
 constexpr std::int64_t kLastRegister = 127;
-constexpr int kDeepest = 16;  // nothing in the file is nested as deep
+constexpr int kDeepest = 16;  // deeper than any valid file
 
-/// What is wrong with the file, and where.
+/// An error in the file, with its position.
 struct Wrong {
     std::string what;
 };
 
-/// A value in the file and the way to it, for messages.
+/// A value in the file and its path, for messages.
 class Node {
   public:
     Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
@@ -80,6 +80,11 @@ class Node {
         return value;
     }
 
+    double any_number() const {
+        if (!json_.is_number()) fail("this must be a number");
+        return json_.get<double>();
+    }
+
     /// Letters, digits and _, so that it can stand in any message.
     std::string word() const {
         std::string value = text();
@@ -87,7 +92,7 @@ class Node {
         return value;
     }
 
-    /// A name as a program can give one.
+    /// A valid name of a program.
     std::string name() const {
         std::string value = word();
         if (is_reserved(value)) fail(fmt::format("'{}' is a word of the language, no name", value));
@@ -99,7 +104,7 @@ class Node {
     std::string path_;
 };
 
-/// Names that must differ, case aside.
+/// Names that must be unique, case-insensitive.
 class Different {
   public:
     void add(const Node& node, const std::string& name) {
@@ -189,6 +194,7 @@ set_points::SetPoint read_set_point(const Node& node) {
     point.unit_code = static_cast<std::uint8_t>(node["unit_code"].whole(0, 255));
     point.steps_per_unit = node["steps_per_unit"].positive();
     if (node.has("step")) point.step = node["step"].positive();
+    if (node.has("grid_from")) point.grid_from = node["grid_from"].any_number();
     const auto number = [&](const char* name) {
         return static_cast<std::int32_t>(node[name].whole(INT32_MIN, INT32_MAX));
     };

@@ -20,6 +20,7 @@ Json json_of(const set_points::Record& record) {
         entry["unit_code"] = point.unit_code;
         entry["steps_per_unit"] = point.steps_per_unit;
         if (point.step > 0) entry["step"] = point.step;
+        if (point.grid_from) entry["grid_from"] = *point.grid_from;
         entry["initial"] = point.initial;
         entry["lowest"] = point.lowest;
         entry["highest"] = point.highest;

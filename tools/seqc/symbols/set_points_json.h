@@ -6,7 +6,7 @@
 
 namespace nplc::seqc {
 
-/// The set-points of a table as F.sym and reports have them, an object each.
+/// The set-points of a table for F.sym and reports, one object each.
 nlohmann::ordered_json json_of(const set_points::Record& record);
 /// The steps that take changed values.
 nlohmann::ordered_json takes_of(const set_points::Record& record);

@@ -14,12 +14,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Names of files need not be UTF-8, which JSON asks for.
+/// File names need not be UTF-8, which JSON requires.
 std::string dumped(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A member a line, and of lists of objects an object a line.
+/// One line per member, and in lists of objects one line per object.
 std::string laid_out(const Json& object) {
     std::string text;
     for (const auto& [key, value] : object.items()) {
@@ -42,7 +42,7 @@ Position place(Span span, const Places& places) {
     return span.length == 0 ? Position{0, 0} : places.of(span.offset).at;
 }
 
-/// Of a line in an included file.
+/// For a line in an included file.
 void add_file(Json& entry, Span span, const Sources& sources) {
     const SourceFile& file = sources.file_at(span.offset);
     if (span.length > 0 && &file != &sources.program()) entry["file"] = file.name;

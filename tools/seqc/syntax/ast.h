@@ -9,7 +9,7 @@
 
 #include "seqc/diagnostic.h"
 
-/// The program as written, names not yet resolved. All text points into the source or `Program::texts`.
+/// The syntax tree, names not yet resolved. All text points into the source or `Program::texts`.
 namespace nplc::seqc::ast {
 
 struct Name {
@@ -17,10 +17,10 @@ struct Name {
     Span span;
 };
 
-/// What a name stands for where it was read.
+/// The role of a name at its place.
 enum class Role : std::uint8_t {
     other,
-    keyword,  ///< a word that is a name elsewhere: SET, R_TRIG
+    keyword,  ///< a keyword that can be a name elsewhere: SET, R_TRIG
     program,
     motor,
     step,
@@ -49,7 +49,7 @@ struct Use {
     bool declares = false;
 };
 
-/// What ends with a word of its own.
+/// A construct that ends with its own keyword.
 struct Block {
     std::string_view end_word;  ///< "END_STEP"
     Span span;                  ///< from its first word to its end, if it has one
@@ -67,7 +67,7 @@ struct Expression {
         counter_q,
         rising,   ///< R_TRIG(name)
         falling,  ///< F_TRIG(name)
-        step,     ///< of a property, STEP = name; a number stands in `name` too; with `value` STEP IN name
+        step,     ///< in a property, STEP = name; a number is also in `name`; with `value` STEP IN name
         negation,
         all_of,
         any_of,
@@ -94,10 +94,10 @@ struct Value {
     Kind kind = Kind::literal;
     Span span;
     double number = 0;
-    bool is_raw = false;   ///< 16#..., taken as the register's bits
+    bool is_raw = false;   ///< 16#..., the register's bits
     bool is_time = false;  ///< T#..., `number` is in milliseconds
     Name unit;             ///< empty text: none
-    Name name;             ///< of a literal that was worked out: a constant in it
+    Name name;             ///< for an evaluated literal: a constant in it
     std::vector<Value> operands;
 };
 
@@ -107,7 +107,7 @@ struct Constant {
     Value value;
 };
 
-/// What a call gives for a parameter: a name, or a value.
+/// An argument of a call: a name or a value.
 struct Argument {
     Name name;
     std::optional<Value> value;
@@ -142,16 +142,16 @@ struct Statement {
     Span every_scan_span;
 };
 
-/// A time behind a condition: IF INPOS WITHIN T#3s, IF Start FOR 200 ms.
+/// A time after a condition: IF INPOS WITHIN T#3s, IF Start FOR 200 ms.
 struct Timing {
     bool is_limit =
-        false;  ///< WITHIN: ELSE acts when it has passed. Else FOR: so long the condition must hold
+        false;  ///< WITHIN: ELSE acts after this time. Else FOR: required duration of the condition
     Value time;
     Span span;
 };
 
 struct Branch {
-    std::optional<Expression> condition;  ///< none: ELSE, or statements without IF
+    std::optional<Expression> condition;  ///< empty: ELSE, or statements without IF
     Span span;
     std::vector<Statement> statements;
     std::optional<Timing> timing = {};
@@ -165,7 +165,7 @@ struct Choice {
 
 /// TERM IF condition THEN statements END_IF;
 struct SymbolicTerm {
-    Name step;  ///< empty text: that of the step it stands in
+    Name step;  ///< empty text: the enclosing step
     Expression condition;
     std::vector<Statement> statements;
     std::vector<Name> outputs;
@@ -173,14 +173,14 @@ struct SymbolicTerm {
 
 struct RawTerm {
     Span span;
-    std::vector<std::uint8_t> bytes;      ///< empty with symbols
-    std::optional<SymbolicTerm> symbols;  ///< written in symbols, not bytes
+    std::vector<std::uint8_t> bytes;      ///< empty if symbolic
+    std::optional<SymbolicTerm> symbols;  ///< if symbolic
 };
 
 /// OUT Lamp BLINKING T#500ms;
 struct Blinking {
     std::vector<Name> outputs;
-    Value time;  ///< on, and then as long off
+    Value time;  ///< on time, and equal off time
     Span span;
 };
 
@@ -196,12 +196,12 @@ struct Allowance {
     Name reason;  ///< without its quotes
 };
 
-/// Of a step that stands in a SEQUENCE, for one call.
+/// For a step of a SEQUENCE, in one call.
 struct Origin {
     Name sequence;
-    Name back;               ///< the step at which the call goes on
-    std::string_view first;  ///< the same step of the first call; empty: it is that
-    std::vector<std::pair<std::string_view, std::string_view>> arguments;  ///< parameter, what it is
+    Name back;               ///< the return step of the call
+    std::string_view first;  ///< the same step of the first call; empty: this is the first call
+    std::vector<std::pair<std::string_view, std::string_view>> arguments;  ///< parameter and its argument
 };
 
 struct Step {
@@ -253,7 +253,7 @@ struct OnCondition {
 /// GROUP Name: steps;
 struct Group {
     Name name;
-    std::vector<Name> steps;  ///< and groups that stand before
+    std::vector<Name> steps;  ///< and groups declared before
 };
 
 /// OUT outputs IN steps EXCEPT steps;
@@ -274,12 +274,12 @@ struct Sequence {
     Name name;
     std::vector<Parameter> parameters;
     std::vector<Step> steps;
-    bool is_broken = false;  ///< its parameters could not be read
+    bool is_broken = false;  ///< its parameters could not be parsed
 };
 
-/// PROPERTY or ASSUME: what it names.
+/// PROPERTY or ASSUME: the names in it.
 struct Claim {
-    enum class Kind : std::uint8_t { property, never, stable, ends };  ///< the last three are of ASSUME
+    enum class Kind : std::uint8_t { property, never, stable, ends };  ///< the last three are for ASSUME
     Kind kind = Kind::property;
     Name name;
     std::vector<Expression> conditions;
@@ -311,17 +311,17 @@ struct Program {
     bool has_calls = false;  ///< CALL or RETURN
     std::optional<Step> power_up;
     std::vector<Step> steps;
-    bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
+    bool steps_missing = false;  ///< some could not be parsed: an unknown name may be one of them
     bool names_missing = false;  ///< the same with inputs, outputs and registers
     bool motor_missing = false;  ///< the same with MOTOR and SCALE
     bool scale_missing = false;
-    std::vector<std::string_view> faulty_names;  ///< declared, but with a mistake
+    std::vector<std::string_view> faulty_names;  ///< declared, but with an error
     std::vector<RawTerm> terms;
-    std::vector<Span> includes;     ///< texts behind INCLUDE, with their quotes
+    std::vector<Span> includes;     ///< texts after INCLUDE, with their quotes
     std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
-    std::vector<Claim> claims;      ///< the same, those that could be read
-    std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them
-    std::vector<Use> uses;          ///< every name that was read, in the order of reading
+    std::vector<Claim> claims;      ///< the same, as far as they could be parsed
+    std::deque<std::string> texts;  ///< of units written with blanks or comments in them
+    std::vector<Use> uses;          ///< every parsed name, in source order
     std::vector<Block> blocks;      ///< in the order of their ends
 };
 

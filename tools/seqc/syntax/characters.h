@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-/// What the characters of a program are.
+/// Character classes of programs.
 namespace nplc::seqc {
 
 inline bool is_digit(char c) {
@@ -23,7 +23,7 @@ inline bool is_word(char c) {
 inline bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
 }
-/// Zero-width characters, which come with text from web pages.
+/// Zero-width characters, as in text copied from web pages.
 inline constexpr auto kInvisible =
     std::to_array<std::string_view>({"\u200b", "\u200c", "\u200d", "\u2060", "\ufeff", "\u00ad"});
 
@@ -31,7 +31,7 @@ inline bool is_symbol(char c) {
     return std::string_view(":;,().=+-*/<>").find(c) != std::string_view::npos;
 }
 
-/// A word with foreign letters as it could be written.
+/// A word with foreign letters in plain ASCII.
 inline std::string spelt_plainly(std::string_view word) {
     constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
         {"\u00e4", "ae"}, {"\u00f6", "oe"}, {"\u00fc", "ue"}, {"\u00c4", "Ae"}, {"\u00d6", "Oe"},

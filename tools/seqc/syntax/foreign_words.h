@@ -4,14 +4,14 @@
 
 namespace nplc::seqc {
 
-/// A word of another language that people write here.
+/// A keyword of another language that users may write.
 struct ForeignWord {
     std::string_view word;
-    std::string_view help;  ///< what to write instead
+    std::string_view help;  ///< the correct form in this language
     std::string_view end;   ///< the word that ends its block, if it has one
 };
 
-/// Null for words that mean nothing special; case does not matter.
+/// Null for ordinary words; case-insensitive.
 const ForeignWord* foreign_word(std::string_view word);
 
 }  // namespace nplc::seqc

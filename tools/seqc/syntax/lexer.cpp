@@ -145,7 +145,7 @@ class Lexer {
         }
     }
 
-    /// LTIME#500ms, INT#3: the value is taken as meant.
+    /// LTIME#500ms, INT#3: the value is accepted as intended.
     bool lex_typed_value(std::size_t start, std::string_view type) {
         if (!is_digit(peek(1))) return false;
         ++at_;
@@ -169,7 +169,7 @@ class Lexer {
                            [&](std::string_view sign) { return word.find(sign) != word.npos; });
     }
 
-    /// How long an invisible character is here, 0 if none is.
+    /// Length of the invisible character here, 0 if there is none.
     std::size_t invisible_here() const {
         const auto found = std::find_if(kInvisible.begin(), kInvisible.end(), [&](std::string_view sign) {
             return source_.substr(at_).starts_with(sign);
@@ -188,12 +188,12 @@ class Lexer {
         if (peek() == '\'' && is_digit(peek(1))) return lex_grouped_number(start);
         if (peek() == '.' && is_digit(peek(1))) {
             ++at_;
-            while (is_digit(peek()) || peek() == '_') ++at_;  // the parser refuses the latter
+            while (is_digit(peek()) || peek() == '_') ++at_;  // the parser rejects the latter
         }
         if (!lex_number_of_c(start)) add(TokenKind::number, start);
     }
 
-    /// 0x10, 8e1, 80.0f: told once, and taken as the number in front.
+    /// 0x10, 8e1, 80.0f: reported once, then handled as the number in front.
     bool lex_number_of_c(std::size_t start) {
         const std::string_view number = source_.substr(start, at_ - start);
         const auto is_sign = [&](std::string_view signs, std::size_t ahead) {
@@ -229,7 +229,8 @@ class Lexer {
         tokens_.push_back({TokenKind::number, source_.substr(last, at_ - last), span_from(start)});
     }
 
-    /// Other languages' signs for AND, OR and NOT are taken as meant, so that nothing else is reported.
+    /// Other languages' operators for AND, OR and NOT are accepted as intended, so that there are no further
+    /// errors.
     bool lex_foreign_operator(std::size_t start) {
         constexpr std::pair<std::string_view, std::string_view> kOperators[] = {
             {"&&", "AND"},     {"&", "AND"},     {"||", "OR"},      {"|", "OR"},
@@ -268,7 +269,7 @@ class Lexer {
         return true;
     }
 
-    /// Behind INCLUDE and BECAUSE.
+    /// After INCLUDE and BECAUSE.
     bool takes_text() const {
         return !tokens_.empty() &&
                (same_name(tokens_.back().text, "INCLUDE") || same_name(tokens_.back().text, "BECAUSE"));
@@ -286,7 +287,7 @@ class Lexer {
         return true;
     }
 
-    /// Latin, Greek and Cyrillic letters of two bytes of UTF-8, but for the signs for times and divided.
+    /// Two-byte UTF-8 letters, Latin, Greek and Cyrillic, except the signs for multiplication and division.
     bool at_foreign_letter() const {
         const auto first = static_cast<unsigned char>(peek());
         const auto second = static_cast<unsigned char>(peek(1));
@@ -295,7 +296,7 @@ class Lexer {
                !(first == 0xC3 && (second == 0x97 || second == 0xB7));
     }
 
-    /// "Ready": the word is taken as meant.
+    /// "Ready": the word is accepted as intended.
     bool lex_quoted(std::size_t start) {
         if (peek() != '"') return false;
         std::size_t end = at_ + 1;
@@ -308,7 +309,7 @@ class Lexer {
         return true;
     }
 
-    /// No-break and other blanks that come with text from elsewhere; told once.
+    /// No-break and other blanks in copied text; reported once.
     bool skip_foreign_blank() {
         for (const std::string_view blank :
              {"\u00a0", "\u2002", "\u2003", "\u2009", "\u200b", "\u202f", "\u2060", "\ufeff"}) {
@@ -323,12 +324,12 @@ class Lexer {
         return false;
     }
 
-    /// Signs that stand for one of the language's own, which is taken as meant.
+    /// Characters that resemble one of the language's own, accepted as intended.
     bool lex_lookalike(std::size_t start) {
         struct Lookalike {
             std::string_view sign;
             std::string_view meant;
-            bool is_told;  ///< otherwise the parser says more
+            bool is_told;  ///< otherwise the parser reports more
         };
         static constexpr Lookalike kSigns[] = {
             {"\u2013", "-", true},  {"\u2014", "-", true},  {"\u2212", "-", true}, {"\u2265", ">", false},
@@ -348,7 +349,7 @@ class Lexer {
         return false;
     }
 
-    /// Quotes as text programs set them.
+    /// Typographic quotes.
     bool lex_typeset_text(std::size_t start) {
         constexpr std::pair<std::string_view, std::string_view> kQuotes[] = {
             {"\u201c", "\u201d"}, {"\u201e", "\u201c"}, {"\u2018", "\u2019"}, {"\u00ab", "\u00bb"}};
@@ -366,7 +367,7 @@ class Lexer {
         return false;
     }
 
-    /// 80 \u00b5m: the unit is left out.
+    /// 80 \u00b5m: the unit is ignored.
     bool lex_micro(std::size_t start) {
         if (!source_.substr(at_).starts_with("\u00b5") && !source_.substr(at_).starts_with("\u03bc"))
             return false;
@@ -378,7 +379,7 @@ class Lexer {
         return true;
     }
 
-    /// m/s^2: the exponent stands behind the unit.
+    /// m/s^2: the exponent follows the unit.
     bool lex_exponent(std::size_t start) {
         if (peek() != '^' || !is_digit(peek(1)) || tokens_.empty()) return false;
         at_ += 2;
@@ -389,7 +390,7 @@ class Lexer {
         return true;
     }
 
-    /// A brace is taken as the word that stands there in this language.
+    /// A brace is handled as the corresponding keyword of this language.
     void lex_brace(std::size_t start) {
         if (!std::exchange(braces_refused_, true))
             report_.add("E001", {static_cast<std::uint32_t>(start), 1}, "there are no braces here",
@@ -408,8 +409,8 @@ class Lexer {
             tokens_.push_back({TokenKind::identifier, end, {static_cast<std::uint32_t>(start), 1}});
     }
 
-    /// Words between IF or STEP and its brace, and characters of a quoted text, so that reading takes no
-    /// longer than the text is long.
+    /// Limit of words between IF or STEP and its brace, and of characters in a quoted text, so that the lexer
+    /// runs in linear time.
     static constexpr std::size_t kLongestHead = 200;
     static constexpr std::size_t kLongestText = 1000;
 
@@ -468,7 +469,7 @@ class Lexer {
     std::vector<Token> tokens_;
     bool braces_refused_ = false;
     bool blanks_refused_ = false;
-    std::vector<std::string_view> braces_;          ///< open ones: the word that ends each
+    std::vector<std::string_view> braces_;          ///< open ones: the end keyword of each
     std::unordered_set<std::string_view> refused_;  ///< words with foreign letters
 };
 

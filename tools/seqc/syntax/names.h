@@ -6,20 +6,20 @@
 
 namespace nplc::seqc {
 
-/// Case counts not in names and keywords.
+/// Names and keywords are case-insensitive.
 bool same_name(std::string_view a, std::string_view b);
 std::string upper(std::string_view text);
 
-/// The candidate that `name` may be a misspelling of; nothing if none is near enough.
+/// The candidate most similar to `name`; empty if none is similar enough.
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
-/// Letters, digits and _, no digit first. Words of the language are identifiers too.
+/// Letters, digits and _, not beginning with a digit. Keywords are identifiers too.
 bool is_identifier(std::string_view text);
 
-/// Which of the two somebody numbers who writes TIMER2 or COUNTER_1; empty if it is none.
+/// TIMER or COUNTER for a name such as TIMER2 or COUNTER_1; empty otherwise.
 std::string_view numbered_timer(std::string_view name);
 
-/// "did you mean 'Travel'?" when a candidate is near enough to `name`, else nothing.
+/// "did you mean 'Travel'?" if a candidate is similar enough to `name`, else empty.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace nplc::seqc

@@ -16,7 +16,7 @@ struct Operator {
     Kind kind;
 };
 
-/// Loosest first, as in IEC 61131-3.
+/// Lowest precedence first, as in IEC 61131-3.
 constexpr std::array kOperators = {
     Operator{"OR", Kind::any_of},
     Operator{"XOR", Kind::odd_of},

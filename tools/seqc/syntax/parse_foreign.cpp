@@ -8,8 +8,8 @@
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
-/// What people write who know another language: one message says what to write here, and reading goes on
-/// behind it.
+/// Constructs of other languages: one message with the correct form, then parsing continues behind the
+/// construct.
 namespace nplc::seqc {
 namespace {
 
@@ -31,7 +31,7 @@ bool is_one_of(const Token& t, std::initializer_list<std::string_view> words) {
 
 }  // namespace
 
-/// END IF, END STEP: one word is taken for the two.
+/// END IF, END STEP: both words are read as one keyword.
 void Parser::mend_split_words() {
     constexpr std::pair<std::string_view, std::string_view> kEnds[] = {{"IF", "END_IF"},
                                                                        {"STEP", "END_STEP"},
@@ -58,7 +58,7 @@ bool Parser::has_line_end(std::size_t from, std::size_t to) const {
     return source_.substr(from, to - from).find('\n') != std::string_view::npos;
 }
 
-/// ELSE Start THEN: reading goes on as with ELSIF.
+/// ELSE Start THEN: parsed as ELSIF.
 bool Parser::refuse_else_with_condition() {
     std::size_t ahead = 1;
     while (is_word_at(ahead) || is_one_of(token(ahead), {"NOT", "AND", "OR", "XOR", "INPOS", "ERROR"}))
@@ -94,7 +94,7 @@ bool Parser::refuse_semicolon_between_names() {
     return true;
 }
 
-/// What stands between a condition of ON and NEXT; false if there is none to go on with.
+/// Text between a condition of ON and NEXT; false if parsing cannot continue.
 bool Parser::refuse_before_next() {
     if (at("NEXT") || token().kind == TokenKind::end) return true;
     const Token first = token();
@@ -228,7 +228,7 @@ bool Parser::refuse_call_or_part() {
     return true;
 }
 
-/// The step's name, its number and the colon; a name of several words is told once.
+/// The step's name, its number and the colon; a name of several words is reported once.
 void Parser::parse_step_head(ast::Program& program, ast::Step& step) {
     const Token& name = tokens_[at_ - 1];
     if (is_word_at(0) || at_symbol("-")) {

@@ -8,7 +8,7 @@
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
-/// INCLUDE 'wiring.seqi'; and the files that it names.
+/// INCLUDE 'wiring.seqi'; and the included files.
 namespace nplc::seqc {
 namespace {
 
@@ -30,7 +30,7 @@ bool Parser::at_item() const {
                        [&](std::string_view word) { return same_name(word, token().text); });
 }
 
-/// What was collected beside the tree.
+/// Hands over the data collected besides the tree.
 void Parser::hand_over(ast::Program& program) {
     program.texts = std::move(texts_);
     program.uses = std::move(uses_);
@@ -61,7 +61,8 @@ void Parser::parse_items(ast::Program& program) {
                 "E010", token().span, fmt::format("{} stands in a file that is included", shown(token())),
                 "such a file has what stands between PROGRAM Name and END_PROGRAM, without these words");
         }
-        if (at("PROGRAM") && !std::exchange(was_told, true)) {  // a whole program: what it has would clash
+        if (at("PROGRAM") &&
+            !std::exchange(was_told, true)) {  // a whole program: its declarations would conflict
             miss_names(program);
             at_ = tokens_.size() - 1;
             return;
@@ -77,7 +78,7 @@ std::string Parser::help_of_headless() const {
                            : "PROGRAM Name comes first; only comments stand before it";
 }
 
-/// A program that does not begin with PROGRAM, or what is none.
+/// A program that does not begin with PROGRAM, or other text.
 void Parser::parse_headless(ast::Program& program) {
     error_here("PROGRAM at the start",
                is_program() ? help_of_headless()
@@ -92,7 +93,7 @@ void Parser::parse_headless(ast::Program& program) {
     hand_over(program);
 }
 
-/// An unknown name may be one of those that could not be read.
+/// An unknown name may be one that could not be parsed.
 void Parser::miss_names(ast::Program& program) {
     program.steps_missing = program.names_missing = program.motor_missing = program.scale_missing = true;
 }
@@ -117,7 +118,7 @@ void Parser::parse_include(ast::Program& program) {
     }
 }
 
-/// Reads another file's tokens and comes back to these.
+/// Parses another file's tokens and returns to these.
 void Parser::parse_file(const SourceFile& file, ast::Program& program) {
     Report lexical;
     std::vector<Token> tokens = tokens_of(*sources_, file, lexical);

@@ -7,7 +7,7 @@
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
-/// What is a word of the language and stands in the wrong place: one message says where it belongs.
+/// Keywords in the wrong place: one message names the correct place.
 namespace nplc::seqc {
 namespace {
 
@@ -16,7 +16,7 @@ constexpr auto kOutside = std::to_array<std::string_view>(
 
 }  // namespace
 
-/// CONST in a step. A step that is not closed looks the same: then a STEP comes before END_STEP.
+/// CONST in a step. An unclosed step looks the same: then a STEP comes before END_STEP.
 bool Parser::refuse_item_inside() {
     const std::string_view word = token().text;
     if (token().kind != TokenKind::identifier ||
@@ -129,7 +129,7 @@ bool Parser::refuse_time_as_condition(ast::Expression& result) {
     return true;
 }
 
-/// 7 MOD 4: MOD is read as the unit of 7.
+/// 7 MOD 4: MOD is parsed as the unit of 7.
 bool Parser::refuse_modulo(ast::Value& value) {
     const bool is_unit = same_name(value.unit.text, "MOD") || same_name(value.unit.text, "DIV");
     if (!is_unit || at_symbol(";")) return false;

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "syntax/names.h"
 #include "syntax/parser.h"
 
 namespace nplc::seqc {
@@ -7,7 +13,7 @@ void Parser::parse_property(ast::Program& program) {
     ++at_;
     ast::Name name;
     if (!expect_name(name, "the property's name", ast::Role::property, true)) {
-        if (is_symbol_at(1, ":")) ++at_;  // a word of the language: what follows is the claim all the same
+        if (is_symbol_at(1, ":")) ++at_;  // a keyword as name: the claim follows all the same
         return recover_claim();
     }
     if (!expect_symbol(":", "behind the property's name")) return recover_claim();
@@ -34,7 +40,7 @@ bool Parser::parse_single_fact() {
     return sound;
 }
 
-/// BETWEEN's second test: what follows in parentheses is the next condition.
+/// BETWEEN's second test: parentheses after it belong to the next condition.
 bool Parser::parse_before_fact() {
     before_fact_ = true;
     const bool sound = parse_single_fact();
@@ -56,12 +62,42 @@ bool Parser::parse_claimed_time() {
     return true;
 }
 
-bool Parser::parse_claim() {
-    if (take("NEVER")) {
-        if (!parse_fact()) return false;
-        return !take("WHILE") ||
-               (parse_fact() && expect("FOR", "behind WHILE's condition") && parse_claimed_time());
+/// What can begin a claim, in the place of a word that cannot.
+bool Parser::refuse_claim(std::string_view word) {
+    const std::string near =
+        suggestion(word, {"NEVER", "ALWAYS", "WHENEVER", "BETWEEN", "AFTER", "EVERY_SCAN"});
+    report_.add(
+        "E010", token().span, fmt::format("a claim is expected behind the property's name, found '{}'", word),
+        near.empty() ? "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
+                       "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'"
+                     : near);
+    ++at_;
+    return false;
+}
+
+/// NEVR Head, IF Head, EVENTUALLY Head: a word, and then one that cannot follow a condition.
+bool Parser::begins_no_claim() const {
+    if (token().kind != TokenKind::identifier || at("NOT") || at("STEP") || at("ANY")) return false;
+    if (at("IF")) return true;
+    constexpr std::array<std::string_view, 6> kBehindCondition{"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"};
+    return is_word_at(0) && token(1).kind == TokenKind::identifier &&
+           std::none_of(kBehindCondition.begin(), kBehindCondition.end(),
+                        [&](std::string_view word) { return same_name(token(1).text, word); });
+}
+
+bool Parser::parse_never() {
+    if (!parse_fact()) return false;
+    if (at("WITHIN")) {
+        report_.add("E010", token().span, "NEVER takes no WITHIN",
+                    "write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
+        return false;
     }
+    return !take("WHILE") ||
+           (parse_fact() && expect("FOR", "behind WHILE's condition") && parse_claimed_time());
+}
+
+bool Parser::parse_claim() {
+    if (take("NEVER")) return parse_never();
     if (take("ALWAYS")) {
         take("POSSIBLE");
         return parse_fact();
@@ -80,6 +116,7 @@ bool Parser::parse_claim() {
         return expect("FROM", "behind EVERY_SCAN") && parse_fact() &&
                expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") && parse_fact();
     }
+    if (begins_no_claim()) return refuse_claim(token().text);
     if (!parse_fact()) return false;
     if (take("ONLY")) return parse_only();
     if (take("CHANGES")) {
@@ -121,7 +158,7 @@ bool Parser::parse_assumed() {
            expect("FOR", "behind STABLE") && parse_claimed_time();
 }
 
-/// What is taken for granted when properties are proved.
+/// An assumption for the proof of properties.
 void Parser::parse_assumption(ast::Program& program) {
     const Token first = token();
     ++at_;
@@ -137,7 +174,7 @@ bool Parser::at_step_test() const {
     return at("STEP") && (is_symbol_at(1, "=") || same_name(token(1).text, "IN"));
 }
 
-/// To its end; a step tested in it begins none.
+/// Skips to its end; STEP in a test does not begin a step.
 void Parser::recover_claim() {
     while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
     take_symbol(";");
@@ -161,6 +198,16 @@ bool Parser::parse_step_test(ast::Expression& result) {
         return expect_name(result.name, "the name of a group", ast::Role::step_or_group);
     }
     if (!expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
+    const Token target = token();
+    if (at_symbol("=")) {
+        report_.add("E010", target.span, "= stands twice", "write it once, as in STEP = Idle");
+        ++at_;
+        return parse_step_name(result);
+    }
+    return parse_step_name(result);
+}
+
+bool Parser::parse_step_name(ast::Expression& result) {
     const Token target = token();
     result.name = name_of(target);
     if (take("POWER_UP")) return true;

@@ -7,7 +7,7 @@
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
-/// SEQUENCE Name(parameters) steps END_SEQUENCE, and the statements that go with it.
+/// SEQUENCE Name(parameters) steps END_SEQUENCE, and its statements.
 namespace nplc::seqc {
 namespace {
 
@@ -45,7 +45,7 @@ void Parser::parse_sequence(ast::Program& program) {
     program.sequences.push_back(std::move(sequence));
 }
 
-/// Of a list that cannot be read.
+/// Skips a list that cannot be parsed.
 void Parser::skip_parameters() {
     const auto ends = [&] {
         const bool begins_step = at("STEP") && (is_symbol_at(2, ":") || same_name(token(2).text, "AT"));
@@ -100,7 +100,7 @@ bool Parser::refuse_semicolon_between_parameters() {
     return true;
 }
 
-/// A statement whose word is a name elsewhere: CALL, RETURN, SET, RESET. Nothing: it is another one.
+/// A statement whose keyword can be a name elsewhere: CALL, RETURN, SET, RESET. Empty: another statement.
 std::optional<bool> Parser::parse_named_statement(ast::Statement& statement) {
     if (at("CALL") && is_word_at(1)) return parse_call(statement);
     if (at("RETURN") && is_symbol_at(1, ";")) {
@@ -127,7 +127,7 @@ bool Parser::is_sequence(std::string_view name) const {
                        [&](std::string_view known) { return same_name(known, name); });
 }
 
-/// RESET ERROR; is taken as meant.
+/// RESET ERROR; is accepted as intended.
 bool Parser::parse_split_reset(ast::Statement& statement) {
     const Token first = token();
     at_ += 2;

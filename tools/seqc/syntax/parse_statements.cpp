@@ -74,7 +74,7 @@ void Parser::parse_timing(ast::Branch& branch, bool is_first) {
     branch.timing = std::move(timing);
 }
 
-/// What stands too much between the condition and THEN is one mistake.
+/// Extra text between the condition and THEN is reported as one error.
 void Parser::take_then() {
     if (take("THEN") || (mend({"THEN"}, "THEN after the condition") && take("THEN"))) return;
     if (at_symbol(";") && same_name(token(1).text, "THEN")) {

@@ -26,7 +26,7 @@ constexpr auto kReserved = std::to_array<std::string_view>(
      "WHILE",        "ENDS",          "ASSUME",    "STABLE",    "CONST",     "SEQUENCE",
      "END_SEQUENCE", "INCLUDE",       "SET_POINT", "RANGE",     "TAKES",     "SET_POINTS"});
 
-/// Words that begin something on the level above a statement: skipping stops in front of them.
+/// Keywords that begin a construct above the level of a statement: skipping stops before them.
 constexpr std::array kBoundaries = {
     std::string_view("END_PROGRAM"), std::string_view("MOTOR"),      std::string_view("SCALE"),
     std::string_view("VAR_INPUT"),   std::string_view("VAR_OUTPUT"), std::string_view("VAR_MOTOR"),
@@ -88,7 +88,7 @@ bool Parser::take_symbol(std::string_view symbol) {
     return true;
 }
 
-/// The token, or the end of the last one if the file ends.
+/// The token, or the end of the last one at the end of the file.
 Span Parser::place_here() const {
     if (token().kind != TokenKind::end || at_ == 0) return token().span;
     const Token& last = tokens_[at_ - 1];
@@ -122,7 +122,7 @@ bool Parser::mend(const std::vector<std::string_view>& words, std::string_view e
     return true;
 }
 
-/// Misspelt is a word where no statement can go on like this: "ELIF Guard", "ENDIF END_STEP", "NXT := Idle".
+/// A word is misspelt if no statement can continue like this: "ELIF Guard", "ENDIF END_STEP", "NXT := Idle".
 void Parser::mend_statement(std::vector<std::string_view> end_words) {
     if (!is_word_at(0) || foreign_word(token().text) != nullptr) return;
     const Token& after = token(1);
@@ -145,7 +145,7 @@ void Parser::mend_statement(std::vector<std::string_view> end_words) {
     }
 }
 
-/// '=' where ':=' is meant; '=:' becomes one token.
+/// '=' instead of ':='; '=:' becomes one token.
 bool Parser::at_equals() {
     if (!at_symbol("=")) return false;
     const Span equals = token().span;
@@ -185,7 +185,7 @@ bool Parser::expect_name(ast::Name& name, std::string_view what, ast::Role role,
     ++at_;
     const bool is_plain =
         std::none_of(name.text.begin(), name.text.end(), [](char c) { return (c & 0x80) != 0; });
-    if (!is_plain) faulty_names_.push_back(name.text);  // E001 was said
+    if (!is_plain) faulty_names_.push_back(name.text);  // E001 was reported
     return true;
 }
 
@@ -201,7 +201,7 @@ Span Parser::span_since(const Token& first) const {
     return {first.span.offset, end - first.span.offset};
 }
 
-/// A missing semicolon is reported where it belongs, and reading goes on as if it stood there.
+/// A missing semicolon is reported at its place, and parsing continues as if it were there.
 void Parser::end_statement() {
     if (take_symbol(";") || in_open_comment() || end_was_reported()) return;
     const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];

@@ -5,7 +5,7 @@
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
-/// Numbers, units, and arithmetic on them.
+/// Numbers, units and arithmetic.
 namespace nplc::seqc {
 namespace {
 
@@ -17,7 +17,7 @@ std::string without_underscores(std::string_view text) {
     return digits;
 }
 
-/// Digits and underscores, then perhaps a point and digits.
+/// Digits and underscores, then optionally a point and digits.
 bool to_number(std::string_view text, double& number) {
     const std::size_t point = text.find('.');
     if (point != text.npos && text.find('_', point) != text.npos) return false;
@@ -237,7 +237,7 @@ bool Parser::parse_literal(ast::Value& value) {
     return !refuse_decimal_comma(first);
 }
 
-/// 80,5 mm; in a TERM the comma parts two bytes.
+/// 80,5 mm; in a TERM the comma separates two bytes.
 bool Parser::refuse_decimal_comma(const Token& first) {
     const Token& last = tokens_[at_ - 1];
     const Token& digits = token(1);

@@ -27,7 +27,7 @@ ast::Program Parser::parse() {
         if (!expect_name(program.name, "the program's name", ast::Role::program, true)) recover();
         take_symbol(";");
     } else if (!at_boundary()) {
-        return program;  // nothing like a program
+        return program;  // not a program at all
     }
     while (token().kind != TokenKind::end && !at("END_PROGRAM") && !report_.full()) parse_item(program);
     end_block("END_PROGRAM", opened);
@@ -458,7 +458,7 @@ bool Parser::parse_outputs(std::vector<ast::Name>& outputs) {
     return true;
 }
 
-/// OUT Lamp IN Moving; outside of the steps: what OUT of a step has no IN.
+/// OUT Lamp IN Moving; outside of the steps: OUT of a step has no IN.
 bool Parser::at_group_output() const {
     if (!at("OUT")) return false;
     std::size_t ahead = 1;
@@ -502,7 +502,7 @@ void Parser::parse_out(ast::Step& step) {
     end_statement();
 }
 
-/// What stands behind the names: WHEN, BLINKING or nothing.
+/// The part after the names: WHEN, BLINKING or nothing.
 bool Parser::parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step) {
     if (!at("WHEN") && !at("BLINKING")) mend({"WHEN", "BLINKING"}, "';', WHEN or BLINKING");
     if (take("BLINKING")) {

@@ -14,7 +14,7 @@
 
 namespace nplc::seqc {
 
-/// What may stand at a place: collected while the parser tries what it knows.
+/// The alternatives at a place, collected while the parser tries them.
 struct Expected {
     std::vector<std::string_view> words;
     std::vector<ast::Role> names;
@@ -22,10 +22,11 @@ struct Expected {
     bool unit = false;
 };
 
-/// The token that stands for such a place; it is nothing else.
+/// The token that marks such a place; it matches nothing else.
 inline constexpr std::string_view kPlace = "";
 
-/// Reads a program's tokens. After an error it goes on at the next statement, so that one run shows them all.
+/// Parses a program's tokens. After an error it continues at the next statement, so that one run reports all
+/// errors.
 class Parser {
   public:
     Parser(std::string_view source, std::vector<Token> tokens, Report& report)
@@ -33,22 +34,22 @@ class Parser {
           tokens_(std::move(tokens)),
           report_(report),
           comment_is_open_(report.has("E002")) {}
-    /// A program and what it includes. Without sources an INCLUDE is read and goes nowhere.
+    /// A program with its includes. Without sources an INCLUDE is parsed and ignored.
     Parser(const Sources& sources, Report& report)
         : Parser(sources.text(), tokens_of(sources, sources.program(), report), report) {
         sources_ = &sources;
     }
 
     ast::Program parse();
-    /// What stands in a file for INCLUDE.
+    /// Parses the contents of an include file.
     ast::Program parse_part();
-    /// Whether this is a file for INCLUDE: it begins like one, and no PROGRAM or END_PROGRAM stands in it.
+    /// Whether this is an include file: it begins like one, and has no PROGRAM or END_PROGRAM.
     bool at_part() const { return at_item() && !is_program(); }
 
-    /// Collects what may stand at the token kPlace.
+    /// Collects the alternatives at the token kPlace.
     void collect(Expected& expected) { expected_ = &expected; }
 
-    /// The tokens back, after parse(); misspelt keywords are mended in them.
+    /// Returns the tokens after parse(), with misspelt keywords corrected.
     std::vector<Token> take_tokens() { return std::move(tokens_); }
 
   private:
@@ -71,17 +72,17 @@ class Parser {
     void note_place(ast::Role role) const;
     Span place_here() const;
     void error_here(std::string_view expected, std::string help = {});
-    /// Reports a misspelt keyword and goes on as if it were right; false if no word is near.
+    /// Reports a misspelt keyword and continues with the correct one; false if no word is similar.
     bool mend(const std::vector<std::string_view>& words, std::string_view expected);
-    /// The same for the word that a statement begins with. `end_words` may stand there too.
+    /// The same for the first word of a statement. `end_words` are also allowed there.
     void mend_statement(std::vector<std::string_view> end_words);
     bool is_word_at(std::size_t ahead) const;
     bool is_output_at(std::size_t ahead) const {
         return is_word_at(ahead) || token(ahead).kind == TokenKind::direct;
     }
-    /// What is missing here stands in a comment that is never closed, which was reported.
+    /// The missing part is in an unclosed comment, which was reported.
     bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
-    /// The file ends, and that was reported.
+    /// The file ends, which was reported.
     bool end_was_reported();
     void end_statement();
     void recover();
@@ -125,9 +126,10 @@ class Parser {
     std::string help_of_headless() const;
     void hand_over(ast::Program& program);
 
-    // parse_foreign.cpp: what other languages have
+    // parse_foreign.cpp: constructs of other languages
     bool is_symbol_at(std::size_t ahead, std::string_view symbol) const;
-    /// Says what to write for a word such as WAIT or FOR; reading stands at it, or behind its block.
+    /// Reports the correct form for a word such as WAIT or FOR; the parser is then at it, or behind its
+    /// block.
     bool refuse_foreign_word();
     bool refuse_foreign_item(ast::Program& program);
     void mend_split_words();
@@ -138,14 +140,14 @@ class Parser {
     bool refuse_semicolon_between_names();
     bool refuse_before_next();
     bool refuse_bare_arguments(const ast::Statement& statement);
-    /// To the next thing that may stand outside of a step.
+    /// Skips to the next construct outside of a step.
     void recover_item();
     bool at_comparison() const;
     bool refuse_comparison(const Token& first, ast::Expression& result, bool is_told);
     bool refuse_call_or_part();
     void parse_step_head(ast::Program& program, ast::Step& step);
 
-    // parse_mistakes.cpp: what stands in the wrong place
+    // parse_mistakes.cpp: keywords in the wrong place
     bool refuse_item_inside();
     bool refuse_set_of_value(ast::Statement& statement);
     bool refuse_entry_with_condition();
@@ -217,6 +219,9 @@ class Parser {
 
     // parse_properties.cpp
     void parse_property(ast::Program& program);
+    bool refuse_claim(std::string_view word);
+    bool begins_no_claim() const;
+    bool parse_never();
     bool parse_claim();
     bool parse_single_fact();
     bool parse_before_fact();
@@ -229,6 +234,7 @@ class Parser {
     bool parse_claimed_time();
     bool parse_assumed();
     bool parse_step_test(ast::Expression& result);
+    bool parse_step_name(ast::Expression& result);
     bool at_step_test() const;
 
     static constexpr int kDeepest = 100;
@@ -245,14 +251,14 @@ class Parser {
     Expected* expected_ = nullptr;
     std::vector<std::string_view> faulty_names_;
     std::vector<std::string_view> registers_;  ///< names of VAR_MOTOR
-    std::vector<std::string_view> sequences_;  ///< names of those that stand before
+    std::vector<std::string_view> sequences_;  ///< names of those declared before
     bool names_missing_ = false;
     bool has_calls_ = false;
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
-    ast::Claim claim_;          ///< the property that is read
-    bool before_fact_ = false;  ///< another condition follows: its ( calls nothing
+    ast::Claim claim_;          ///< the property being parsed
+    bool before_fact_ = false;  ///< another condition follows: its ( is no call
     bool in_term_ = false;
     bool in_value_ = false;
 };
@@ -260,10 +266,10 @@ class Parser {
 /// Milliseconds of T#1s500ms; false if it is malformed.
 bool parse_time(std::string_view text, double& milliseconds);
 
-/// A token as messages show it: "'NEXT'", "the end of the file".
+/// A token for messages: "'NEXT'", "the end of the file".
 std::string shown(const Token& t);
 
-/// Words that cannot be names.
+/// Reserved words, which cannot be names.
 bool is_reserved(std::string_view word);
 std::span<const std::string_view> reserved_words();
 

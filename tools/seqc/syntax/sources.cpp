@@ -16,13 +16,13 @@ namespace {
 constexpr std::size_t kDeepestInclude = 20;
 constexpr std::string_view kInclude = "INCLUDE";
 
-/// Most programs have none, and need not be read twice.
+/// Avoids a second pass for the most frequent case, a program without INCLUDE.
 bool may_include(std::string_view text) {
     const auto same = [](char a, char b) { return static_cast<char>(a & ~0x20) == b; };
     return std::search(text.begin(), text.end(), kInclude.begin(), kInclude.end(), same) != text.end();
 }
 
-/// The texts behind INCLUDE, with their quotes.
+/// The texts after INCLUDE, with their quotes.
 std::vector<Token> inclusions_in(std::string_view text) {
     std::vector<Token> found;
     if (!may_include(text)) return found;
@@ -136,7 +136,7 @@ class SourceLoader {
         take_new(inclusion, name, span);
     }
 
-    /// Once is enough; but what is still open would include itself.
+    /// Included once; but a file that is still open would include itself.
     void take_known(Sources::Inclusion& inclusion, std::size_t there, Span span) {
         inclusion.meant = there;
         if (awaits_first_ && there == 0) {

@@ -25,13 +25,13 @@ constexpr const char* kStyle = R"(
   node [fontname="Helvetica", fontsize=11, shape=box, style=filled, fillcolor="#ffffff", color="#333333", margin="0.06,0.04"];
   edge [color="#333333", arrowsize=0.7];
 )";
-// A4 less half an inch of margin.
+// A4 minus margins of half an inch.
 constexpr const char* kPage =
     R"(size="7.3,10.7", margin=0.2, nodesep=0.3, ranksep=0.3, labelloc=b, fontname="Helvetica", fontsize=9)";
 
 using LinePair = std::pair<std::uint8_t, std::uint8_t>;  // from, to
 
-/// The pairs of steps between which a line is drawn, and whether only ERROR leads along it.
+/// The pairs of steps with a line between them, and whether only ERROR leads along it.
 std::map<LinePair, bool> lines_of(const GraphModel& model) {
     std::map<LinePair, bool> lines;
     for (const GraphModel::Box& box : model.boxes) {
@@ -64,7 +64,7 @@ std::string action_rows(std::string_view text, std::size_t width) {
     return result;
 }
 
-/// Lines one below the other in a cell.
+/// Lines of a cell.
 std::string lines(std::string_view text, std::string_view colour) {
     std::string result;
     for (const std::string& line : wrapped(text, kBoxWidth)) {
@@ -107,6 +107,7 @@ class Drawing {
         if (!model_.motor.empty()) text += small("Motor: " + model_.motor);
         if (!model_.scale.empty()) text += small("Scale: " + model_.scale);
         for (const auto& [terminal, name] : model_.terminals) text += small(terminal + " = " + name);
+        for (const std::string& point : model_.set_points) text += small(point);
         return text;
     }
 
@@ -121,7 +122,7 @@ class Drawing {
         return box->shows_number ? fmt::format("{} {}", step, box->name) : box->name;
     }
 
-    /// What leads away has the step where it leads beside it.
+    /// An outgoing transition has its target step next to it.
     std::string way_row(std::uint8_t step, const GraphModel::Way& way) const {
         const bool stays = way.to == step;
         const std::string condition = stays ? "EVERY_SCAN, " + way.condition : way.condition;
@@ -133,7 +134,7 @@ class Drawing {
                            content, coloured(kTargetColour, to(way) + by));
     }
 
-    /// Blanks that keep it off what stands before it.
+    /// Blanks as distance to the preceding text.
     std::string to(const GraphModel::Way& way) const {
         return "\u00A0\u00A0\u2192 " + markup(name_of(way.to));
     }
@@ -184,7 +185,7 @@ class Drawing {
                            way.on_error ? kErrorColour : kNoteColour);
     }
 
-    /// A line for each pair of steps; back to an earlier one in grey.
+    /// One line per pair of steps; to an earlier step in grey.
     std::string all_lines() const {
         std::string text = "    { rank=min; s0; }\n";
         for (std::size_t i = 0; i < model_.notes.size(); ++i) text += note_line(i);

@@ -16,11 +16,11 @@ using TextKind = Picture::TextKind;
 using TextAnchor = Picture::Anchor;
 
 constexpr double kCardPad = 6;
-constexpr double kRowLead = 1.3;  // of the size, from line to line
-constexpr double kRise = 0.35;    // of the size, from the foot of letters to their middle
+constexpr double kRowLead = 1.3;  // times the size, from line to line
+constexpr double kRise = 0.35;    // times the size, from the baseline to the middle of letters
 constexpr double kBetweenWays = 2;
 constexpr double kLetter = 6.02;      // of 10 points
-constexpr double kBesideTarget = 12;  // between a condition and where it leads
+constexpr double kBesideTarget = 12;  // between a condition and its target
 
 class CardWriter {
   public:
@@ -52,7 +52,7 @@ class CardWriter {
         take(name_width + 2 * (card_.box.texts.back().width + kCardPad));
     }
 
-    /// With the step where it leads beside it, or below where both are too wide.
+    /// With the target step next to it, or below if both are too wide.
     void way(const GraphModel::Way& way, const std::string& target, std::size_t letters, double room) {
         way_ = card_.way_heights.size();
         if (*way_ > 0) y_ += kBetweenWays;
@@ -116,7 +116,7 @@ std::string target_of(const GraphModel& model, const GraphModel::Way& way) {
     return "\u2192 " + name_of(model, way.to) + by;
 }
 
-/// `room`: for a condition and where it leads.
+/// `room`: width for a condition and its target.
 Card step_card(const GraphModel& model, const GraphModel::Box& box, std::size_t letters, double room) {
     CardWriter writer(fmt::format("s{}", box.step));
     writer.box().step = box.step;

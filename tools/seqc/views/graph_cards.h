@@ -7,20 +7,20 @@
 
 namespace nplc::seqc {
 
-/// A box that has no place yet: its texts and rules count from its own corner, its width is the least.
+/// A box without a position: its texts and rules are relative to its corner, its width is the minimum.
 struct Card {
     Picture::Box box;
-    std::vector<double> way_heights;  ///< where lines of its ways begin
-    double entry_height = 0;          ///< where lines beside it end
+    std::vector<double> way_heights;  ///< where lines of its transitions begin
+    double entry_height = 0;          ///< where incoming lines at its side end
 };
 
-/// For each step, by the order of the model. Conditions are broken after some `letters`.
+/// One per step, in the order of the model. Conditions are wrapped after about `letters` characters.
 std::vector<Card> step_cards(const GraphModel& model, std::size_t letters);
 
-/// For each step that notes lead to, with all of them, by its number.
+/// One per step that is the target of notes, with all of them, in the order of step numbers.
 std::vector<Card> note_cards(const GraphModel& model, std::size_t letters);
 
-/// Makes a step `width` wide, and uses that; gives all texts their places across.
+/// Makes a card `width` wide and positions all texts horizontally.
 void widen(Card& card, double width, const GraphModel& model, std::size_t letters);
 
 }  // namespace nplc::seqc

@@ -35,7 +35,7 @@ class Reading {
     }
 
   private:
-    /// Of the places where it leads the one that fewest others lead to.
+    /// Among the targets, the one with the fewest other sources.
     std::optional<std::size_t> after(std::size_t at) const {
         std::optional<std::size_t> best;
         for (const GraphModel::Way& way : model_.boxes[at].ways) {
@@ -100,7 +100,7 @@ double height_of(const Group& group) {
     return height;
 }
 
-/// Where columns begin if none is higher than `limit` unless one group is.
+/// Starts of columns such that none is higher than `limit`, except for a single larger group.
 std::vector<std::size_t> breaks(const std::vector<double>& heights, double limit) {
     std::vector<std::size_t> begins;
     double height = 0;

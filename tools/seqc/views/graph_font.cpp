@@ -7,7 +7,7 @@
 namespace nplc::seqc {
 namespace {
 
-// Advances of DejaVu Sans, as wide as sans serif fonts get: thousandths of the size, from the blank on.
+// Advances of DejaVu Sans, one of the widest sans serif fonts: thousandths of the size, from the blank on.
 constexpr std::array<std::uint16_t, 95> kRegular{
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
     636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632,

@@ -4,7 +4,7 @@
 
 namespace nplc::seqc {
 
-/// Room for `text` in points, whatever usual font draws it: the widest of a sans serif and a monospaced one.
+/// Maximum width of `text` in points for common fonts: the larger of a sans serif and a monospaced one.
 double text_width(std::string_view text, double size, bool bold = false);
 
 }  // namespace nplc::seqc

@@ -7,7 +7,7 @@
 
 namespace nplc::seqc {
 
-/// The drawing for other programs: what stands in it, and where.
+/// The drawing for other programs: its elements and positions.
 nlohmann::ordered_json graph_json_of(const GraphModel& model, const Picture& picture);
 
 }  // namespace nplc::seqc

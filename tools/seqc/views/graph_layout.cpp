@@ -16,11 +16,11 @@ namespace {
 
 using TextKind = Picture::TextKind;
 
-// Points of an A4 page less its margins.
+// Points of an A4 page minus its margins.
 constexpr double kShort = 539;
 constexpr double kLong = 786;
-constexpr double kAcross = 0.92;   // what a page that must be turned is worth
-constexpr double kAsGood = 1.001;  // a candidate is taken when it is better by more
+constexpr double kAcross = 0.92;   // weight of a landscape page
+constexpr double kAsGood = 1.001;  // minimum improvement for a candidate
 constexpr std::size_t kMostColumns = 8;
 constexpr std::array<std::size_t, 3> kLetters{44, 34, 26};
 constexpr std::array<std::pair<LinesDrawn, double>, 3> kLines{
@@ -42,7 +42,7 @@ class Lines {
                           .width = text_width(text, style.size, style.bold),
                           .text = text});
     }
-    /// Parts side by side, as many as fit.
+    /// Adds parts side by side, as many as fit per line.
     void add(TextKind kind, const std::vector<std::string>& parts, std::string_view between, double width) {
         std::string line;
         for (const std::string& part : parts) {
@@ -87,6 +87,7 @@ Lines heading_of(const GraphModel& model, double width) {
         }
         lines.add(TextKind::terminal, terminals, ", ", width);
     }
+    lines.add(TextKind::terminal, model.set_points, "; ", width);
     return lines;
 }
 
@@ -117,7 +118,7 @@ double scale_on(const Picture& picture, double width, double height) {
     return std::min({width / picture.width, height / picture.height, 1.0});
 }
 
-/// What a page of it is worth to a reader.
+/// Readability of a page with this picture.
 double fit(Picture& picture) {
     const double upright = scale_on(picture, kShort, kLong);
     const double across = scale_on(picture, kLong, kShort);

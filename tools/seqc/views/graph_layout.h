@@ -5,7 +5,7 @@
 
 namespace nplc::seqc {
 
-/// The model laid out for an A4 page, upright or across, whichever lets it be read better.
+/// The model laid out for an A4 page, portrait or landscape, whichever is more readable.
 Picture picture_of(const GraphModel& model);
 
 }  // namespace nplc::seqc

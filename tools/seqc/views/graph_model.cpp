@@ -9,13 +9,14 @@
 #include "base/crc32.h"
 #include "semantics/motors.h"
 #include "views/graph_ways.h"
+#include "views/set_points_text.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kWorthANote = 3;     // steps with the same way out
-constexpr std::size_t kOfOnCondition = 2;  // the same of an ON condition
+constexpr std::size_t kWorthANote = 3;     // minimum number of steps with the same exit for a note
+constexpr std::size_t kOfOnCondition = 2;  // the same for an ON condition
 constexpr std::size_t kFewSteps = 3;
 constexpr std::size_t kInputs = 6;
 
@@ -51,7 +52,7 @@ class Builder {
         return {way.shown.condition, way.shown.actions, way.shown.to};
     }
 
-    /// Always on ERROR, and out of the step.
+    /// Exits that are always taken on ERROR.
     void bundle_error(std::vector<GraphModel::Note>& notes) {
         Bundles bundles;
         for_each_step([&](std::uint8_t step) {
@@ -67,7 +68,7 @@ class Builder {
         return way.shown.to != step && way.when == truth_of_bit(kErrorBit);
     }
 
-    /// What several steps of a program have first.
+    /// The first branch that several steps of a program share.
     bool bundle_first(std::vector<GraphModel::Note>& notes) {
         Bundles bundles;
         for_each_step([&](std::uint8_t step) {
@@ -88,7 +89,7 @@ class Builder {
         return condition == "always" || condition == "ELSE";
     }
 
-    /// Notes what enough steps have, and takes it out of their ways.
+    /// Makes a note of an exit that enough steps share, and removes it from their transitions.
     template <class Which>
     bool take(const Bundles& bundles, std::vector<GraphModel::Note>& notes, const Which& which) {
         const std::size_t before = notes.size();
@@ -113,7 +114,7 @@ class Builder {
         return notes.size() > before;
     }
 
-    /// `as_written`: the program's own words say where.
+    /// `as_written`: the steps are named in the program's own words.
     GraphModel::Note note(const Key& key, const Steps& steps, bool as_written = true) const {
         const auto& [condition, actions, to] = key;
         const std::optional<std::string> written = as_written ? source_.where_of(condition) : std::nullopt;
@@ -122,7 +123,7 @@ class Builder {
         return {{.condition = condition, .actions = actions, .to = to, .on_error = condition == "ERROR"}, in};
     }
 
-    /// One input that leads several steps of a table to the same place, whatever else there is.
+    /// One input that leads several steps of a table to the same target, whatever the other conditions.
     bool bundle_inputs(std::vector<GraphModel::Note>& notes) {
         const std::size_t before = notes.size();
         for (std::size_t literal = 0; literal < 2 * kInputs; ++literal) bundle_input(literal, notes);
@@ -157,7 +158,7 @@ class Builder {
                (cases & ~way.when).none();
     }
 
-    /// Leaves out of a table's ways what the notes say.
+    /// Removes from a table's transitions what the notes say.
     void shorten(std::uint8_t step) {
         for (GraphWays::Way& way : ways_[step]) {
             if (way.is_written) continue;
@@ -179,6 +180,8 @@ class Builder {
                             .outputs = source_.outputs(step),
                             .entry = source_.entry(step),
                             .ways = {}};
+        if (step != 0 && symbols_ != nullptr && (symbols_->set_points.takes >> step & 1U) != 0)
+            box.outputs.emplace_back("TAKES SET_POINTS");
         box.is_of_compiler = !box.made_as.empty() && !box.made_as.starts_with("of SEQUENCE");
         for (const GraphWays::Way& way : ways_[step]) box.ways.push_back(way.shown);
         return box;
@@ -221,7 +224,7 @@ class Builder {
     std::array<Truth, kStepNumbers> covered_;  ///< by notes
 };
 
-/// Those that the program gave a name.
+/// Only those named in the program.
 template <class Names>
 void add_terminals(std::string_view kind, const Names& names, GraphModel& model) {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -248,6 +251,8 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     if (symbols != nullptr) {
         add_terminals("IN", symbols->inputs, model);
         add_terminals("OUT", symbols->outputs, model);
+        for (const set_points::SetPoint& point : symbols->set_points.values)
+            model.set_points.push_back(fmt::format("Set-point {}: {}", point.name, text_of(point)));
         if (const auto& scale = symbols->scale)
             model.scale = fmt::format("{:g} rev = {:g} {}", scale->revolutions, scale->length, scale->unit);
     }

@@ -12,15 +12,15 @@
 
 namespace nplc::seqc {
 
-/// What a drawing of a table shows, as plain text.
+/// The contents of a table's drawing, as plain text.
 struct GraphModel {
-    /// What a step does under a condition.
+    /// The action of a step under a condition.
     struct Way {
         std::string condition = {};
-        std::string actions = {};             ///< without what the boxes at both ends say already
-        std::uint8_t to = 0;                  ///< the own step: it stays
+        std::string actions = {};             ///< without what the boxes at both ends show
+        std::uint8_t to = 0;                  ///< its own step: it stays
         std::optional<std::uint8_t> by = {};  ///< a helper step on the way
-        bool on_error = false;                ///< on nothing else
+        bool on_error = false;                ///< only on ERROR
     };
     struct Box {
         std::uint8_t step = 0;
@@ -30,29 +30,30 @@ struct GraphModel {
         std::string made_as = {};               ///< "helper step", "copy of Fault", "of SEQUENCE Stamp"
         bool is_of_compiler = false;            ///< a helper step or copy
         std::vector<std::string> outputs = {};  ///< "OUT Grip", "OUT Lamp WHEN IN3"
-        std::vector<std::string> entry = {};    ///< "ENTRY STOP"; in step 0 what POWER_UP writes
-        std::vector<Way> ways = {};             ///< the first one that holds counts
+        std::vector<std::string> entry = {};    ///< "ENTRY STOP"; in step 0 the writes of POWER_UP
+        std::vector<Way> ways = {};             ///< the first one that is true applies
     };
-    /// The same way out of several steps, drawn once. It comes before what the boxes say.
+    /// The same exit of several steps, drawn once. It has priority over the boxes.
     struct Note {
         Way way;
         std::string where;  ///< "in every other step"
     };
 
     std::string title;
-    std::string motor;   ///< empty where unknown
-    std::string scale;   ///< "1 rev = 10 mm"; empty where there is none
-    std::string footer;  ///< what tells this table from others
+    std::string motor;   ///< empty if unknown
+    std::string scale;   ///< "1 rev = 10 mm"; empty without one
+    std::string footer;  ///< identification of the table
     std::size_t terms = 0;
     std::uint32_t crc32 = 0;
     std::vector<std::pair<std::string, std::string>> terminals;  ///< "IN0", "Pedal"; those that have names
+    std::vector<std::string> set_points;  ///< "Set-point Speed: 1000 rpm, 500 rpm to 2500 rpm"
     std::vector<Box> boxes;
     std::vector<Note> notes;
 };
 
-/// A program, for which its conditions and statements are shown as they stand in it.
+/// A program whose conditions and statements are shown as written.
 struct GraphSource {
-    const Written* written = nullptr;  ///< nothing: a table alone
+    const Written* written = nullptr;  ///< null: a table without a program
     std::string_view text;
 };
 

@@ -8,8 +8,8 @@ namespace nplc::seqc {
 namespace {
 
 constexpr double kInch = 72;
-constexpr double kTextHeight = 1.2;  // of the size: the height of a line of text
-constexpr double kBelowFoot = 0.3;   // of the size: what is below its foot
+constexpr double kTextHeight = 1.2;  // line height, times the size
+constexpr double kBelowFoot = 0.3;   // descent, times the size
 
 class Print {
   public:
@@ -24,7 +24,7 @@ class Print {
             picture_.width * picture_.scale / kInch, picture_.height * picture_.scale / kInch);
         node(picture_.width / 2, picture_.height / 2, picture_.width, picture_.height,
              R"(style=filled, fillcolor="#ffffff", color="#ffffff")");
-        node(0, picture_.height, 0, 0, "style=invis");  // where lines hang
+        node(0, picture_.height, 0, 0, "style=invis");  // anchors of lines
         anchor_ = count_ - 1;
         for (const Picture::Box& box : picture_.boxes) outline(box);
         for (const Picture::Text& part : picture_.texts) label(part, style_of(part.kind).colour);
@@ -62,7 +62,7 @@ class Print {
         for (const Picture::Text& part : box.texts) label(part, colour_of(box, part));
     }
 
-    /// `\l` and `\r` put a label at a side of its node.
+    /// `\l` and `\r` align a label within its node.
     void label(const Picture::Text& part, std::string_view colour) {
         using Anchor = Picture::Anchor;
         const TextStyle style = style_of(part.kind);
@@ -89,7 +89,7 @@ class Print {
              fmt::format(R"(color="{}"{})", colour_of(line.kind), is_dashed ? ", style=dashed" : ""), true);
     }
 
-    /// Straight pieces as cubic curves; an arrow takes the end of the last one.
+    /// Straight segments as cubic curves; an arrow replaces the end of the last one.
     void path(std::vector<Picture::Point> points, const std::string& more, bool has_arrow = false) {
         constexpr double kArrow = 6;
         std::string pos;

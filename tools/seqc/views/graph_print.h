@@ -6,7 +6,7 @@
 
 namespace nplc::seqc {
 
-/// The picture for `neato -n2`, which makes a PNG or a PDF of it: everything has its place already.
+/// The picture for `neato -n2`, which renders it as PNG or PDF: all positions are fixed.
 std::string print_of(const Picture& picture);
 
 }  // namespace nplc::seqc

@@ -14,18 +14,18 @@ namespace {
 
 using Side = Tracks::Side;
 
-constexpr double kAbove = -40;      // of the first cards, before it is known how far lines there go
+constexpr double kAbove = -40;      // above the first cards, before the height of the lines there is known
 constexpr double kBusApart = 7;     // from line to line above the cards
 constexpr double kBusToCards = 12;  // from the lowest of them to the cards
-constexpr double kSideways = 12;    // of a line up from one down
-constexpr double kLevelsApart = 3;  // of two lines that would lie upon each other
+constexpr double kSideways = 12;    // horizontal distance of a line up from one down
+constexpr double kLevelsApart = 3;  // distance of two lines that would overlap
 
 struct Place {
     std::size_t column = 0;
     std::size_t row = 0;
 };
 
-/// A line's way across from a box to its track.
+/// The horizontal part of a line from a box to its track.
 struct Stub {
     std::size_t channel = 0;
     std::uint8_t target = 0;
@@ -42,7 +42,7 @@ struct Route {
     std::optional<std::size_t> way;
     Picture::LineKind kind = Picture::LineKind::forward;
     Shape shape = Shape::none;
-    std::size_t begin = 0;  ///< among the stubs
+    std::size_t begin = 0;  ///< index in the stubs
     std::size_t end = 0;
 };
 
@@ -122,7 +122,7 @@ class Router {
         return drawn_ == LinesDrawn::all ? Shape::far : Shape::none;
     }
 
-    /// Chooses the channels, and with them what lies in each.
+    /// Chooses the channels, and thereby the lines in each.
     void plan() {
         for (Route& route : routes_) {
             route.shape = shape_of(route);
@@ -159,7 +159,7 @@ class Router {
         return stubs_.size() - 1;
     }
 
-    /// One for all that come to a step from that side.
+    /// One stub for all lines that arrive at a step from that side.
     std::size_t end_stub(const Route& route, std::size_t channel, Side box_on) {
         const auto [at, is_new] = ends_.try_emplace({channel, route.target, box_on}, stubs_.size());
         if (is_new) {
@@ -169,7 +169,7 @@ class Router {
         return at->second;
     }
 
-    /// Lines above the cards, the shortest at the bottom.
+    /// Lines above the cards, the shortest lowest.
     void place_buses() {
         std::vector<std::pair<std::uint8_t, std::pair<std::size_t, std::size_t>>> all(buses_.begin(),
                                                                                       buses_.end());
@@ -209,7 +209,7 @@ class Router {
         width_ = x;
     }
 
-    /// Two that come from both sides at one height and pass each other are moved apart.
+    /// Separates two lines that arrive from both sides at the same height.
     void keep_apart() {
         for (Stub& right : stubs_) {
             if (right.box_on != Side::right) continue;
@@ -266,7 +266,7 @@ class Router {
     std::map<std::uint8_t, double> bus_heights_;
     double bus_room_ = 0;
     Tracks tracks_;
-    std::vector<double> channels_;  ///< their left
+    std::vector<double> channels_;  ///< left edges
     double width_ = 0;
 };
 

@@ -7,7 +7,7 @@
 
 namespace nplc::seqc {
 
-/// Which lines are drawn; for the rest the arrow in the box says where it goes on.
+/// The lines to draw; for others the arrow in the box shows the target.
 enum class LinesDrawn : std::uint8_t { all, beside, neighbours };  ///< beside: none past a column
 
 struct Routes {
@@ -16,8 +16,8 @@ struct Routes {
     double height = 0;
 };
 
-/// Draws lines around the cards, never over one, and gives the cards their places across. All that leads to
-/// one step runs together before it.
+/// Routes lines around the cards, never over one, and sets the cards' horizontal positions. All lines to one
+/// step are merged before it.
 Routes route(CardColumns& columns, const GraphModel& model, LinesDrawn drawn);
 
 }  // namespace nplc::seqc

@@ -66,7 +66,7 @@ std::string node(const Picture::Box& box) {
     return text + "</g>\n";
 }
 
-/// A point at most a corner's length from `at` towards `to`.
+/// A point up to a corner's length from `at` towards `to`.
 Picture::Point towards(Picture::Point at, Picture::Point to) {
     const double length = std::hypot(to.first - at.first, to.second - at.second);
     const double share = length == 0 ? 0 : std::min(kCorner, length / 2) / length;

@@ -6,7 +6,7 @@
 
 namespace nplc::seqc {
 
-/// The same picture gives the same text. Each box is a group with its id, class "node" and its kind.
+/// Deterministic. Each box is a group with its id, class "node" and its kind.
 std::string svg_of(const Picture& picture, const std::string& title);
 
 }  // namespace nplc::seqc

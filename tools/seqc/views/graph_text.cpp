@@ -13,7 +13,7 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-/// Bytes of the character that `text` begins with; 0 if it is none that XML may hold.
+/// Bytes of the character at the start of `text`; 0 if it is not valid in XML.
 std::size_t character_length(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[0]);
     if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
@@ -30,7 +30,7 @@ std::size_t character_length(std::string_view text) {
     return code < kLeast[length] || code > 0x10FFFF || surrogate || control ? 0 : length;
 }
 
-/// Calls `use` with each character, a replacement for what is none.
+/// Calls `use` with each character, with a replacement for invalid ones.
 template <class Use>
 void for_each_character(std::string_view text, Use use) {
     while (!text.empty()) {
@@ -53,7 +53,7 @@ std::size_t characters_in(std::string_view text) {
         std::count_if(text.begin(), text.end(), [](char c) { return !continues(c); }));
 }
 
-/// How much of `text` belongs together at its beginning, with the blank that ends it.
+/// Length of the unbreakable part at the start of `text`, with its trailing blank.
 std::size_t piece_length(std::string_view text) {
     for (std::size_t at = 1; at < text.size(); ++at) {
         if (text[at - 1] != ' ') continue;

@@ -6,13 +6,13 @@
 
 namespace nplc::seqc {
 
-/// Inside "...": quotes and backslashes escaped.
+/// For text in "...": quotes and backslashes escaped.
 std::string quoted(std::string_view text);
 
-/// For labels in <...>: markup escaped, what is no UTF-8 and what cannot be printed replaced.
+/// For labels in <...>: markup escaped, invalid UTF-8 and unprintable characters replaced.
 std::string markup(std::string_view text);
 
-/// Lines of about `width` characters, broken before AND and OR and after commas and semicolons only; before
+/// Lines of about `width` characters, broken only before AND and OR and after commas and semicolons; before
 /// every OR if one line is not enough.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 

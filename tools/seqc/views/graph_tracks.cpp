@@ -7,8 +7,8 @@ namespace nplc::seqc {
 namespace {
 
 constexpr double kApart = 7;     // from track to track
-constexpr double kToBoxes = 10;  // from a track to the boxes: room for an arrow
-constexpr double kClear = 10;    // between two on one track
+constexpr double kToBoxes = 10;  // from a track to the boxes, including an arrow
+constexpr double kClear = 10;    // between two lines on one track
 constexpr double kEmpty = 18;    // between columns without a track
 
 }  // namespace

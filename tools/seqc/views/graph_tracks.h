@@ -8,28 +8,28 @@
 
 namespace nplc::seqc {
 
-/// Where lines between two columns run up and down: what leads to one step shares a track.
+/// Positions of vertical lines between two columns: lines to one step share a track.
 class Tracks {
   public:
     enum class Side : std::uint8_t { left, right };
 
-    /// A line to `target` between boxes on a side of channel `channel` passes these heights.
+    /// A line to `target`, from boxes on one side of channel `channel`, spans these heights.
     void add(std::size_t channel, std::uint8_t target, double from, double to, Side box_on);
 
-    /// Gives each its place, as few beside each other as do not touch. Channels are numbered from the left.
+    /// Assigns positions, with as few parallel tracks as possible. Channels are numbered from the left.
     void assign(std::size_t channels);
 
     double width(std::size_t channel) const { return widths_[channel]; }
-    /// From the channel's left.
+    /// Relative to the channel's left edge.
     double x(std::size_t channel, std::uint8_t target) const;
 
   private:
     struct Track {
         double top = 0;
         double bottom = 0;
-        int left = 0;  ///< boxes on the left of it, less those on the right
+        int left = 0;  ///< boxes on its left minus those on its right
         Side side = Side::left;
-        std::size_t place = 0;  ///< from that side
+        std::size_t place = 0;  ///< position, from that side
     };
     using Key = std::pair<std::size_t, std::uint8_t>;
 

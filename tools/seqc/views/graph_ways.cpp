@@ -9,7 +9,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// "A; B" of what is sent, with the program's names and units.
+/// "A; B": the orders, with the program's names and units.
 std::string named_texts(const ScanResult& outcome, const Symbols* symbols) {
     std::string text;
     for (const auto& order : outcome.orders) append(text, named_order_text(order, symbols), "; ");
@@ -31,7 +31,7 @@ GraphWays::GraphWays(const Machine& machine, const Symbols* symbols, const Graph
     for (std::uint8_t step = 0; step < kStepNumbers; ++step) entries_[step] = entry_of(machine, step);
 }
 
-/// A copy that the compiler made has them from the step that it is a copy of.
+/// A compiler-generated copy has the text of its original step.
 WrittenText GraphWays::text_of(const Written::Step& step) const {
     if (written_ == nullptr || symbols_ == nullptr || step.number >= symbols_->made_for.size()) return text_;
     const std::string_view made_for = symbols_->made_for[step.number];
@@ -50,7 +50,7 @@ const Written::Step* GraphWays::written_step(std::uint8_t step) const {
     return found == written_->steps.end() ? nullptr : &*found;
 }
 
-/// Whether the table does what the branch says; a TERM may have changed it.
+/// Whether the table does what the branch says; a TERM may have changed that.
 bool GraphWays::is_true(const Written::Branch& branch, std::uint8_t step) const {
     const std::uint8_t goes_to = branch.by_helper.value_or(branch.next.value_or(step));
     for (std::size_t c = branch.when._Find_first(); c < kCases; c = branch.when._Find_next(c)) {
@@ -75,7 +75,7 @@ GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branc
     return way;
 }
 
-/// A condition that the compiler divided, so that its words alone do not say which of the ways it is.
+/// A condition that the compiler split, so that its text does not identify one of the transitions.
 bool GraphWays::leads_to_several(const Written::Step& step, const std::string& condition) const {
     std::optional<std::uint8_t> first;
     for (const Written::Branch& branch : step.branches) {
@@ -115,7 +115,7 @@ std::vector<GraphWays::Way> GraphWays::of(std::uint8_t step) const {
     return ways;
 }
 
-/// ELSE before the last way, where the compiler added one behind it, is said in full.
+/// ELSE before the last transition is written in full if the compiler added one after it.
 void GraphWays::name_the_rest(std::vector<Way>& ways) const {
     Truth told;
     for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
@@ -169,7 +169,7 @@ std::vector<std::string> GraphWays::entry(std::uint8_t step) const {
     return lines;
 }
 
-/// As the program has it, if the table does just that.
+/// The condition as written in the program, if the table implements exactly that.
 std::string GraphWays::condition_of(const OutputRule& rule, std::uint8_t step) const {
     const Written::Step* written = written_step(step);
     if (written != nullptr && rule.kind == OutputRule::Kind::follows) {

@@ -9,7 +9,7 @@
 
 namespace nplc::seqc {
 
-/// What the steps of a table do, as a program says it or, where there is none, as the terms do.
+/// The transitions of a table's steps, as written in the program or, without one, derived from the terms.
 class GraphWays {
   public:
     struct Way {
@@ -20,18 +20,18 @@ class GraphWays {
 
     GraphWays(const Machine& machine, const Symbols* symbols, const GraphSource& source);
 
-    /// In the order in which they are judged; of a table they exclude each other.
+    /// In the order of evaluation; for a table they are mutually exclusive.
     std::vector<Way> of(std::uint8_t step) const;
-    /// What ENTRY says, a line each; for step 0 what POWER_UP writes.
+    /// The statements of ENTRY, one line each; for step 0 the writes of POWER_UP.
     std::vector<std::string> entry(std::uint8_t step) const;
     std::vector<std::string> outputs(std::uint8_t step) const;
     std::string made_as(std::uint8_t step) const;
-    /// "IN Moving EXCEPT Turn" where an ON condition of the program says so; nothing: no such condition.
+    /// "IN Moving EXCEPT Turn" if an ON condition of the program has it; empty: no such condition.
     std::optional<std::string> where_of(std::string_view condition) const;
 
   private:
     const Written::Step* written_step(std::uint8_t step) const;
-    /// Texts of a step, with what its sequence was called with.
+    /// Texts of a step, with the arguments of its sequence.
     WrittenText text_of(const Written::Step& step) const;
     GraphModel::Way shown(const Written::Step& step, const Written::Branch& branch, const Truth& told) const;
     std::string actions(std::uint8_t step, const Reaction& reaction) const;

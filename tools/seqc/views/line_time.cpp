@@ -16,7 +16,7 @@ constexpr std::uint32_t kEqualStatusBytes = 2;
 constexpr std::uint32_t kPauseBeforeFlexMac = 3;
 constexpr std::uint32_t kLateStatusBytes = 2;
 
-/// Goes through the messages as JvlMotor::work chooses them and JvlLink sends them.
+/// Simulates the messages as JvlMotor::work chooses them and JvlLink sends them.
 class Line {
   public:
     explicit Line(bool safe) : safe_(safe) {}
@@ -69,7 +69,7 @@ class Line {
     LineUse use_;
     bool safe_;
     bool in_flexmac_ = false;
-    std::uint32_t left_ = 0;  ///< when the last character had left
+    std::uint32_t left_ = 0;  ///< when the last character had left the transmitter
     std::uint32_t now_ = 0;   ///< in characters
 };
 

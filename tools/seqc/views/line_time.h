@@ -12,17 +12,18 @@ struct LineSettings {
     bool safe_communication = true;  ///< each FastMAC command twice
 };
 
-/// What the orders of one scan put on the motor's line, with the gateway's driver for JVL motors
-/// (firmware/motor): 10 bits a character, one message after the other.
+/// Load of the motor's line by the orders of one scan, with the gateway's driver for JVL motors
+/// (firmware/motor): 10 bits per character, one message after the other.
 struct LineUse {
-    std::uint32_t messages = 0;    ///< orders, and switches to FlexMAC and back
-    std::uint32_t characters = 0;  ///< ours
-    /// Until the motor's status has shown the last message as taken, in characters, at the least: after each
-    /// message two equal status bytes; before a FlexMAC message three characters of pause. The motor is in
-    /// FastMAC again then, and the next scan may begin.
+    std::uint32_t messages = 0;    ///< orders, and protocol changes to FlexMAC and back
+    std::uint32_t characters = 0;  ///< sent by the gateway
+    /// Minimum time in characters until the motor's status has confirmed the last message: after each message
+    /// two equal status bytes; before a FlexMAC message a pause of three characters. The motor is then in
+    /// FastMAC again, and the next scan may begin.
     std::uint32_t until_done = 0;
-    /// The same at the most on a good line: for each message one more status byte that was on its way, and
-    /// one because some other bit of the status changed between the two. The driver's own polls come on top.
+    /// The maximum on a line without faults: one more status byte per message that was already in transit,
+    /// and one because another bit of the status changed between the two. The driver's polls are not
+    /// included.
     std::uint32_t at_most = 0;
 };
 

@@ -26,7 +26,7 @@ KnownOutputs joined(const KnownOutputs& a, const KnownOutputs& b) {
     return {known, static_cast<std::uint8_t>(a.value & known)};
 }
 
-/// Follows all ways from power-up until nothing new is learnt.
+/// Follows all transitions from power-up until nothing changes.
 class Walk {
   public:
     explicit Walk(Machine& machine) : machine_(machine) {
@@ -79,7 +79,7 @@ Machine machine_of(std::span<const std::uint8_t> table) {
 
 namespace {
 
-/// In which cases a staying step writes one output on, writes it off, or keeps it.
+/// The cases in which a step that stays switches one output on, off, or keeps it.
 struct Writes {
     Truth on;
     Truth off;
@@ -119,7 +119,7 @@ void add_rules(const Machine& machine, std::uint8_t step, std::uint8_t bit, std:
     if (writes.off.any()) rules.push_back({bit, Kind::resets, writes.off, writes.leaves});
 }
 
-/// A way into a step.
+/// A transition into a step.
 struct Way {
     std::uint8_t from = 0;
     const ScanResult* outcome = nullptr;
@@ -150,7 +150,7 @@ std::vector<OutputRule> output_rules(const Machine& machine, std::uint8_t step) 
 }
 
 Entry entry_of(const Machine& machine, std::uint8_t step) {
-    if (step == 0) return {};  // a power-up sends nothing by itself
+    if (step == 0) return {};  // a power-up sends nothing
     const std::vector<Way> ways = ways_into(machine, step);
     const bool from_others =
         std::any_of(ways.begin(), ways.end(), [](const Way& way) { return way.from != 0; });
@@ -189,7 +189,7 @@ std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
 
 namespace {
 
-/// What of an outcome makes a reaction different from others.
+/// The part of an outcome that distinguishes reactions.
 Reaction reaction_for(const Machine& machine, std::uint8_t step, const ScanResult& outcome) {
     Reaction reaction{.when = {}, .outcome = outcome};
     const bool leaves = outcome.next != step;

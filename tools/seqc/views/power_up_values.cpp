@@ -16,7 +16,7 @@ using sequencer::MotorOrder;
 PowerUpValues::PowerUpValues(const Machine& before, const Machine& now)
     : before_(writes_of(before)), now_(writes_of(now)) {}
 
-/// Those that every way out of step 0 begins with; not a register that is written twice.
+/// The common first writes of every transition from step 0, without registers that are written twice.
 PowerUpValues::Writes PowerUpValues::writes_of(const Machine& machine) {
     Writes writes;
     std::set<std::uint8_t> twice;

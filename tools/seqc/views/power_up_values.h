@@ -8,15 +8,15 @@
 
 namespace nplc::seqc {
 
-/// The register values that POWER_UP writes in two tables, so that a changed value is told once and not for
-/// each way out of POWER_UP.
+/// The register values that POWER_UP writes in two tables, so that a changed value is reported once and not
+/// for each transition from POWER_UP.
 class PowerUpValues {
   public:
     PowerUpValues(const Machine& before, const Machine& now);
 
     std::vector<TableDiff::Value> changes(const Symbols* names_before, const Symbols* names_now) const;
 
-    /// Makes orders of step 0 alike where they differ by such a value only.
+    /// Makes orders of step 0 equal if they differ only by such a value.
     void level(std::vector<sequencer::MotorOrder>& before, std::vector<sequencer::MotorOrder>& now) const;
 
   private:

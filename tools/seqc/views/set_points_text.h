@@ -10,10 +10,10 @@ namespace nplc::seqc {
 /// "80 mm, 10 mm to 200 mm in steps of 0.1 mm"
 std::string text_of(const set_points::SetPoint& point);
 
-/// What each is, its range and where it lies; empty without any.
+/// Each set-point with its range and places; empty without any.
 std::string set_points_text(const Symbols& symbols);
 
-/// What became of a set-point between two tables.
+/// A change of a set-point between two tables.
 struct SetPointChange {
     std::string name;
     std::string before;  ///< empty: there was none

@@ -16,14 +16,14 @@
 
 namespace nplc::seqc {
 
-/// Which step of one table is which of another.
+/// The corresponding steps of two tables.
 struct StepMatch {
     std::array<std::optional<std::uint8_t>, kStepNumbers> now_of{};     ///< by number in the older table
     std::array<std::optional<std::uint8_t>, kStepNumbers> before_of{};  ///< by number in the newer table
 };
 
-/// Step 0 is step 0. Steps that have names on both sides go by name; those left over are the same if they
-/// mostly do the same, which makes one renamed. Without names on one side they go by number.
+/// Step 0 is step 0. Steps with names on both sides correspond by name; the others if they mostly behave the
+/// same, which detects a renamed step. Without names on one side they correspond by number.
 StepMatch match_steps(const Machine& before, const Symbols* names_before, const Machine& now,
                       const Symbols* names_now);
 
@@ -70,8 +70,8 @@ class Matching {
         return both_named(a, b) && same_name(name_in(names_before_, a), name_in(names_now_, b));
     }
 
-    /// In at least half of the cases in which one of them does something, both do the same, as far as the
-    /// steps that follow are known to be the same.
+    /// In at least half of the cases in which one of them acts, both act the same, as far as the following
+    /// steps are known to correspond.
     bool mostly_same(std::uint8_t a, std::uint8_t b) const {
         std::size_t acting = 0;
         std::size_t same = 0;
@@ -126,8 +126,8 @@ struct ComparedTable {
         }
     }
 
-    /// Outputs that are the step's own affair: what a step that follows is entered with, or what a step that
-    /// stays always has. A step that is never reached may enter it with others.
+    /// Outputs determined by the step itself: those with which the following step is entered, or those that a
+    /// staying step always has. An unreachable step may enter it with others.
     std::uint8_t settled(std::uint8_t step, const ScanResult& outcome) const {
         const KnownOutputs& always =
             outcome.next == step ? machine.held[step] : machine.entered_with[outcome.next];
@@ -165,6 +165,7 @@ class Differ {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
             if (match_.before_of[step]) compare(*match_.before_of[step], step);
         }
+        compare_takers(before.symbols, now.symbols);
         for (const std::uint8_t step : changed_entries_) add_entry(*match_.before_of[step], step);
     }
 
@@ -172,7 +173,7 @@ class Differ {
 
   private:
     std::string name_before(std::uint8_t step) const { return step_name(step, before_.symbols); }
-    /// As the newer table calls it, else as the older one does.
+    /// The name in the newer table, else in the older one.
     std::string name_now(std::uint8_t step) const {
         const Symbols* symbols = now_.symbols;
         const bool named =
@@ -202,6 +203,23 @@ class Differ {
     bool has_same_name(std::uint8_t before, std::uint8_t now) const {
         if (before_.symbols == nullptr || now_.symbols == nullptr) return true;
         return name_before(before) == name_now(now);
+    }
+
+    /// Only where both have set-points: else it is told of these.
+    void compare_takers(const Symbols* before, const Symbols* now) {
+        if (before == nullptr || now == nullptr) return;
+        const set_points::Record& old = before->set_points;
+        const set_points::Record& young = now->set_points;
+        if (old.values.empty() || young.values.empty()) return;
+        const auto takes = [](const set_points::Record& record, std::optional<std::uint8_t> step) {
+            return step && (record.takes >> *step & 1U) != 0;
+        };
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            const auto earlier = match_.before_of[step];
+            if (takes(young, step) && !takes(old, earlier)) diff_.take_now.push_back(name_now(step));
+            if (earlier && takes(old, earlier) && !takes(young, step))
+                diff_.take_no_more.push_back(name_now(step));
+        }
     }
 
     void compare(std::uint8_t a, std::uint8_t b) {
@@ -260,7 +278,7 @@ class Differ {
         action.next = now ? name_now(*now) : name_before(step);
     }
 
-    /// Both lead to the same step, and differ only in what all ways into that step do.
+    /// Both lead to the same step and differ only in the common action of all transitions into it.
     bool is_only_entry(std::uint8_t a, std::uint8_t b, std::size_t c, StepAction before, StepAction now) {
         if (before.next_id < 0 || before.next_id != now.next_id) return false;
         before.orders = before_.without_entry(before_.machine.steps[a].in(c));
@@ -314,7 +332,8 @@ bool TableDiff::same_behaviour() const {
     const auto counts = [](const Step& step) {
         return step.kind == Step::Kind::added || step.kind == Step::Kind::removed;
     };
-    return set_points.empty() && values.empty() && outputs.empty() && entries.empty() && reactions.empty() &&
+    return set_points.empty() && take_now.empty() && take_no_more.empty() && values.empty() &&
+           outputs.empty() && entries.empty() && reactions.empty() &&
            std::none_of(steps.begin(), steps.end(), counts);
 }
 

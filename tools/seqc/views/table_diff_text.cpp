@@ -62,6 +62,12 @@ std::string line_of(const SetPointChange& change) {
     return fmt::format("set-point {}: {} -> {}\n", change.name, change.before, change.now);
 }
 
+std::string takers(const std::vector<std::string>& steps, std::string_view how) {
+    if (steps.empty()) return {};
+    return fmt::format("{}: take{} set-points {}\n", fmt::join(steps, ", "), steps.size() == 1 ? "s" : "",
+                       how);
+}
+
 template <class List>
 std::string lines_of(const List& list) {
     std::string text;
@@ -127,7 +133,8 @@ std::string text_of(const TableDiff& diff) {
     if (!diff.motor_now.empty())
         motor = fmt::format("for another motor: {} -> {}\n", diff.motor_before, diff.motor_now);
     const std::string names = lines_of(diff.steps) + renumbered(diff.steps);
-    const std::string set_points = lines_of(diff.set_points);
+    const std::string set_points =
+        lines_of(diff.set_points) + takers(diff.take_now, "now") + takers(diff.take_no_more, "no more");
     if (diff.same_bytes) return "the same bytes\n" + motor + names + set_points;
     if (diff.same_behaviour()) return "other bytes, but every step does the same\n" + motor + names;
     return motor + names + lines_of(diff.values) + lines_of(diff.outputs) + lines_of(diff.entries) +
@@ -139,7 +146,8 @@ std::string json_of(const TableDiff& diff) {
                     {"motor_before", diff.motor_before},     {"motor_now", diff.motor_now},
                     {"steps", array_of(diff.steps)},         {"values", array_of(diff.values)},
                     {"outputs", array_of(diff.outputs)},     {"entries", array_of(diff.entries)},
-                    {"reactions", array_of(diff.reactions)}, {"set_points", array_of(diff.set_points)}};
+                    {"reactions", array_of(diff.reactions)}, {"set_points", array_of(diff.set_points)},
+                    {"take_set_points_now", diff.take_now},  {"take_set_points_no_more", diff.take_no_more}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -62,7 +62,7 @@ using ReportStep = TableReport::Step;
 using Transition = TableReport::Transition;
 
 constexpr std::size_t kNamedAsWorst = 3;
-constexpr std::size_t kStepsOfTable = 62;  // 0..61; 62 cannot be gone to
+constexpr std::size_t kStepsOfTable = 62;  // 0..61; 62 cannot be a target
 
 std::size_t steps_used(const TableReport& report) {
     return report.steps.size() - (report.has_power_up ? 1 : 0);
@@ -98,7 +98,7 @@ std::vector<ReportStep> worst_first(std::vector<ReportStep> steps) {
     return steps;
 }
 
-/// Why the compiler made the step; empty: it stands in the program.
+/// Why the compiler generated the step; empty: it is in the program.
 std::string made_for(const TableReport& report, std::uint8_t step) {
     return report.symbols && step <= kMostSteps ? report.symbols->made_for[step] : std::string();
 }
@@ -155,7 +155,7 @@ std::string way_text(const Transition& transition, const TableReport& report) {
                        condition_of(transition, report));
 }
 
-/// What the transition sends, and all that send the same.
+/// The orders of the transition, and all transitions with the same orders.
 std::string group_text(const Transition& transition, const TableReport& report) {
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     const LineUse& line = transition.line;
@@ -175,7 +175,7 @@ const Transition* longest_from_start(const TableReport& report) {
     return nullptr;
 }
 
-/// The times are those of FastMAC and FlexMAC.
+/// The times apply to FastMAC and FlexMAC only.
 bool is_translated(const TableReport& report) {
     return report.symbols && report.symbols->drive != nullptr;
 }

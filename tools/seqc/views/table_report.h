@@ -12,7 +12,7 @@
 
 namespace nplc::seqc {
 
-/// What a table uses, and how long its switches keep the motor's line.
+/// Resources used by a table, and the load of its transitions on the motor's line.
 struct TableReport {
     struct Step {
         std::uint8_t number = 0;
@@ -22,16 +22,16 @@ struct TableReport {
     };
     struct Transition {
         std::uint8_t from = 0;
-        std::uint8_t to = 0;  ///< the same as `from`: acts in every scan while it stays
+        std::uint8_t to = 0;  ///< equal to `from`: acts in every scan while it stays
         Truth when;
         std::vector<std::string> orders;
         LineUse line;
     };
 
     std::optional<Symbols> symbols;  ///< as given
-    bool has_power_up = false;       ///< step 0 is the hidden one of a program
+    bool has_power_up = false;       ///< step 0 is a program's POWER_UP
     LineSettings settings;
-    std::size_t terms = 0;  ///< the end included
+    std::size_t terms = 0;  ///< including the end term
     std::vector<Step> steps;
     std::vector<Transition> transitions;  ///< the longest first
 };
@@ -40,7 +40,7 @@ TableReport report_of(std::span<const std::uint8_t> table, const Symbols* symbol
                       const LineSettings& settings);
 
 std::string text_of(const TableReport& report);
-/// Room, and the switch that keeps the line longest.
+/// Memory use, and the transition with the highest load on the line.
 std::string summary_of(const TableReport& report);
 std::string json_of(const TableReport& report);
 

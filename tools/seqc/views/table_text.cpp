@@ -15,7 +15,7 @@
 namespace nplc::seqc {
 namespace {
 
-/// The cases in which ERROR is `value`, taken for both values of it.
+/// The cases in which ERROR is `value`, copied to both values of it.
 Truth where_error(const Truth& truth, bool value) {
     const Truth high = truth_of_bit(kErrorBit);
     constexpr std::size_t kStep = std::size_t{1} << kErrorBit;
@@ -47,7 +47,7 @@ std::string product_text(Product product, const Symbols* symbols) {
     return text;
 }
 
-/// "" if it always holds.
+/// "" if it is always true.
 std::string sum_text(const Truth& need, const Truth& open, const Symbols* symbols, bool in_brackets) {
     const std::vector<Product> products = shortest_products(need, need | open);
     std::string text;
@@ -193,7 +193,7 @@ std::optional<LengthUnit> length_of(const Symbols& symbols) {
     return LengthUnit{symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
 }
 
-/// The one in which people speak of it; "" for a plain number.
+/// The customary unit; "" for a plain number.
 std::string unit_for(const registers::Register& reg, const std::optional<LengthUnit>& length) {
     const std::vector<std::string> units = fitting_units(reg, length);
     if (units.empty()) return "";
@@ -201,7 +201,7 @@ std::string unit_for(const registers::Register& reg, const std::optional<LengthU
     return units.front() == "samples" ? "ms" : units.front();
 }
 
-/// With as few places as tell it from its neighbours.
+/// With the fewest digits that distinguish it from adjacent values.
 std::optional<std::string> shortest(std::int64_t value, const registers::Register& reg,
                                     const Symbols& symbols, const std::string& unit) {
     constexpr int kMostPlaces = 6;

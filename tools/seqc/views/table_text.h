@@ -23,13 +23,13 @@ std::string output_name(std::size_t bit, const Symbols* symbols);
 /// "Grip, Lamp"; empty for none.
 std::string outputs_list(std::uint8_t outputs, const Symbols* symbols);
 
-/// The register's entry, where the motor is known or all motors have the same there.
+/// The register's description, if the motor is known or all motors have the same.
 const registers::Register* find_register(std::uint8_t number, const Symbols* symbols);
 /// "V1", or "REG(123)".
 std::string register_name(std::uint8_t number, const Symbols* symbols);
-/// As the program calls it, or as above.
+/// The program's name, or as above.
 std::string register_as_named(std::uint8_t number, const Symbols* symbols);
-/// What is written, as a number with the register's sign.
+/// The written value as a number with the register's sign.
 std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols);
 
 /// "POSITION(P2)", "V1 := 3146".
@@ -43,34 +43,35 @@ std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* 
 /// "T#500ms", "T#2s", "T#1s500ms"
 std::string time_text(std::uint16_t milliseconds);
 
-/// "POSITION(P2)", "TIMER := T#500ms", "COUNT_DOWN" and so on: all but the next step and the outputs.
+/// "POSITION(P2)", "TIMER := T#500ms", "COUNT_DOWN" and so on: everything except the next step and the
+/// outputs.
 std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols);
 
-/// A condition that holds in all cases of `need` and in none outside of `need` and `open`: "Start AND NOT
-/// Guard". As in the language it means NOT ERROR unless it names ERROR. "always" for no condition at all.
+/// A condition that is true in all cases of `need` and in none outside of `need` and `open`: "Start AND NOT
+/// Guard". As in the language it implies NOT ERROR unless it names ERROR. "always" without a condition.
 std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols);
 
-/// "1500 rpm" for 3146 in V1: the shortest number that the compiler rounds to this value. Nothing for a
-/// register without unit, and where the motor is not known.
+/// "1500 rpm" for 3146 in V1: the shortest number that the compiler rounds to this value. Empty for a
+/// register without unit, or if the motor is unknown.
 std::optional<std::string> with_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
 /// The same, and velocities and accelerations in the unit of the program's SCALE.
 std::optional<std::string> with_machine_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
 
-/// What a step does in one case, in a form in which two tables can be compared.
+/// The action of a step in one case, in a form for comparing two tables.
 struct StepAction {
-    int next_id = -1;  ///< of the step that follows, the same for both tables; -1 while it stays
+    int next_id = -1;  ///< id of the next step, common to both tables; -1 if it stays
     std::string next;  ///< its name
     std::vector<sequencer::MotorOrder> orders;
     std::uint16_t timer = 0;
     CounterChange counter = CounterChange::none;
     std::uint16_t counter_preset = 0;
-    KnownOutputs outputs;           ///< where two tables differ and the steps themselves do not settle it
-    std::uint8_t kept_outputs = 0;  ///< those of them that have no certain value
+    KnownOutputs outputs;           ///< where two tables differ and the steps themselves do not determine it
+    std::uint8_t kept_outputs = 0;  ///< outputs without a certain value
     bool operator==(const StepAction& other) const;
 };
 
-/// The action of a scan in case `c`, without the step that follows. What changes nothing when the counter
-/// is zero is left out.
+/// The action of a scan in case `c`, without the next step. Counter operations without effect at zero are
+/// omitted.
 StepAction step_action_of(const ScanResult& outcome, std::size_t c);
 
 /// "sends STOP and goes to Fault"; "nothing".

@@ -11,14 +11,15 @@ namespace {
 
 constexpr std::uint32_t kBaud = 19'200;
 
-/// On a line without faults, with the polls of driver and gateway.
+/// On a line without faults, including the polls of driver and gateway.
 std::uint32_t most_time(std::span<const sequencer::MotorOrder> orders) {
     const LineUse use = line_use(orders, true);
     return static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
            verify::Machine::kMostIdle;
 }
 
-/// The motor's queue takes eight orders beside the one under way; a scan with more waits for those before.
+/// The motor's queue holds eight orders besides the one in execution; a scan with more waits for the earlier
+/// ones.
 verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
     constexpr std::size_t kQueue = 8;
     constexpr std::uint32_t kLongestWait = 1'000;

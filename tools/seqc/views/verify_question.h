@@ -5,18 +5,18 @@
 #include "seqc/seqc.h"
 #include "verify/verify.h"
 
-/// A program as a question for tools/verify.
+/// Converts a program to the input of tools/verify.
 namespace nplc::seqc {
 
 verify::Names verify_names(const Symbols& symbols);
-/// Of a table without symbols: steps and signals by number, registers by the manual's names.
+/// For a table without symbols: steps and signals by number, registers by the manual's names.
 verify::Names verify_names();
 
-/// As `seqc report` works it out. `translated`: of a drive whose orders the gateway translates; what it takes
-/// is known only as the longest that a gateway waits.
+/// The times of `seqc report`. `translated`: for a drive whose orders the gateway translates; their time is
+/// known only as the gateway's longest wait.
 verify::OrderTime order_times(bool translated);
 
-/// The properties of a program, at their lines.
+/// The properties of a program, with their lines.
 verify::PropertyReading properties_in(const Compilation& program, std::string_view source,
                                       const verify::Names& names);
 

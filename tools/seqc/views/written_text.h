@@ -8,16 +8,16 @@
 
 namespace nplc::seqc {
 
-/// Parts of a program's source as one line each, as they stand there but for comments and line ends.
+/// Parts of a program's source as one line each, as written except for comments and line ends.
 class WrittenText {
   public:
     explicit WrittenText(std::string_view source) : source_(source) {}
-    /// With arguments in the place of parameters.
+    /// With arguments in place of parameters.
     WrittenText(std::string_view source, const std::vector<Written::Argument>& arguments)
         : source_(source), arguments_(&arguments) {}
 
     std::string of(Span span) const;
-    /// "Start AND NOT Guard"; "ELSE"; "always" where the program wrote no condition.
+    /// "Start AND NOT Guard"; "ELSE"; "always" if the program has no condition.
     std::string condition(const Written::Branch& branch) const;
     /// "POSITION(Press); TIMER := T#2s"
     std::string statements(const std::vector<Span>& spans) const;

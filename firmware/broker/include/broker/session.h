@@ -7,13 +7,13 @@
 
 struct mosquitto;
 
-/// What is the same for every client of a broker. Needs libmosquitto: where kIsBuiltIn is false, nothing else
-/// of this file is there.
+/// Functions shared by all clients of a broker. Needs libmosquitto: if kIsBuiltIn is false, nothing else in
+/// this file is defined.
 namespace nplc::broker {
 
 extern const bool kIsBuiltIn;
 
-/// libmosquitto, for as long as it is used.
+/// Initializes libmosquitto for its lifetime.
 struct Library {
     Library();
     ~Library();
@@ -22,19 +22,19 @@ struct Library {
 };
 
 using Session = std::unique_ptr<mosquitto, void (*)(mosquitto*)>;
-/// With a clean session; null: no memory. `self` is what the callbacks get.
+/// With a clean session; null: no memory. `self` is passed to the callbacks.
 Session new_session(const std::string& name, void* self);
 
 struct Secrets {
     std::string password{};
-    std::string error{};  ///< one line: a file that cannot be read, or holds none
+    std::string error{};  ///< one line: a file that cannot be read or is empty
 };
 Secrets read_secrets(const Options& options);
 
-/// User, password and TLS. Empty, or why the library does not take them.
+/// User, password and TLS. Empty, or the library's error.
 std::string set_secrets(mosquitto* session, const Options& options, const std::string& password);
 
-/// Of a function of the library, read at once after it.
+/// Text of an error code; to be called directly after the failed function.
 std::string reason_of(int code);
 
 }  // namespace nplc::broker

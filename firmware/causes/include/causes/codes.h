@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-/// The numbers of causes, for faces that have no texts. They stay for good: none is changed or used again.
+/// The numbers of causes, for faces without texts. They are permanent: none is changed or used again.
 namespace nplc::causes {
 
 struct Code {
@@ -15,9 +15,9 @@ struct Code {
 
 /// In ascending order of number.
 std::span<const Code> codes();
-/// 0: there is none of that name.
+/// 0: there is no such name.
 std::uint16_t number_of(std::string_view name);
-/// Null: there is none of that number.
+/// Null: there is no such number.
 const Code* find_code(std::uint16_t number);
 
 }  // namespace nplc::causes

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-/// What `why` finds, and the rules that it finds it by.
+/// The findings of `why`, and the rules behind them.
 namespace nplc::causes {
 
 enum class Severity : std::uint8_t {
-    stops,    ///< it cannot move because of it
-    hinders,  ///< it may soon, moves less than wanted, or not everywhere
-    tells,    ///< good to know
+    stops,    ///< it cannot move because of this
+    hinders,  ///< it may stop soon, or moves less than wanted, or not everywhere
+    tells,    ///< information
 };
 
 /// For programs.
@@ -27,15 +27,15 @@ struct Finding {
     std::string code;  ///< stable, for programs: "torque_zero"
     Severity severity = Severity::stops;
     std::string sentence{};
-    std::vector<std::string_view> sources{};  ///< registers or parameters whose values make it so
+    std::vector<std::string_view> sources{};  ///< registers or parameters whose values prove it
     std::string remedy{};
 };
 
-/// What following a remedy lets a shaft do.
+/// The motion that following a remedy may cause.
 enum class Lets : std::uint8_t {
     nothing,
-    turn,  ///< as its mode asks for
-    jump,  ///< the motor pushes, and what it pushes against gives way
+    turn,  ///< as its mode demands
+    jump,  ///< the motor pushes, and the obstacle yields
 };
 
 /// A cause as a row of a table. In its texts {KEY} stands for Facts::word(KEY), and a key's `*` for the first

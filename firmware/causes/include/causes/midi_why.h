@@ -10,10 +10,10 @@
 #include "registers/midi_motor.h"
 #include "registers/vocabulary.h"
 
-/// Why does it not move, asked of a MIDI drive (000 §VI, 003 §IV, §VII).
+/// Diagnoses why a MIDI drive does not move (000 §VI, 003 §IV, §VII).
 namespace nplc::causes {
 
-/// Of a module what the gateway's driver does not ask.
+/// Readings of a module that the gateway's driver does not poll.
 struct MidiReadings {
     std::uint32_t end_stops = 0;  ///< END_STOPS
     std::uint32_t terminals = 0;  ///< GET_MEASURES
@@ -29,11 +29,11 @@ struct MidiDriver {
     registers::gateway::DriveFault fault = registers::gateway::DriveFault::none;
     registers::midi::Limitation limitation = registers::midi::Limitation::none;  ///< of a bad_value
     bool is_at_target = false;                                                   ///< in position mode, IN_POS
-    bool has_no_speed = false;  ///< a mode that moves is chosen, and V_SOLL is 0
+    bool has_no_speed = false;  ///< a mode with motion is selected, and V_SOLL is 0
     bool operator==(const MidiDriver&) const = default;
 };
 
-/// A MIDI drive as it, or the gateway that leads it, tells of itself; what nobody knows is left out. A plain
+/// A MIDI drive as it, or the gateway that controls it, reports itself; unknown values are left out. A plain
 /// value.
 struct MidiState {
     std::optional<registers::midi::Model> model{};
@@ -48,14 +48,14 @@ struct MidiState {
     bool operator==(const MidiState&) const = default;
 };
 
-/// As it reads with units, where somebody knows more of them.
+/// The readings with units, where these are known.
 struct MidiTexts {
     std::string distance{};  ///< ": 20 inc in 200 ms"
     std::string speed{};
 };
 
-/// What keeps it from moving, what to mend first in front; one that moves is told as such in front of all.
-/// Never empty.
+/// The causes that keep it from moving, the most urgent first; that it moves comes before all others. Never
+/// empty.
 std::vector<Finding> why(const MidiState& drive, const std::optional<GatewayState>& gateway = {},
                          const MidiTexts& texts = {});
 

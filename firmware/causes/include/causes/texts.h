@@ -8,15 +8,15 @@
 #include "registers/details.h"
 #include "registers/mac.h"
 
-/// A register's value as people read it.
+/// A register's value in a readable form.
 namespace nplc::causes {
 
-/// A mode, a pointer: one field as wide as the register; null: it is none.
+/// A mode, a pointer: one field as wide as the register; null: there is none.
 const registers::Field* whole_field(const registers::Register& reg, registers::Model model);
 /// In its shown unit.
 std::string number_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
-/// The unit that values are shown in: counts for positions, in which single steps can be told apart, else the
-/// usual one; empty for a plain number.
+/// The unit in which values are shown: counts for positions, which distinguish single steps, else the usual
+/// one; empty for a plain number.
 std::string_view shown_unit(const registers::Register& reg);
 /// "762.94 rpm", "20480 counts", "P_MODE", "IN_POS ACC_FLAG"; names where the register has them, else the
 /// number in its shown unit.

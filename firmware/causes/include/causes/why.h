@@ -10,16 +10,16 @@
 #include "causes/snapshot.h"
 #include "registers/mac.h"
 
-/// Why does it not move? (001 §4.4, §4.5, 004)
+/// Diagnoses why a motor does not move (001 §4.4, §4.5, 004).
 namespace nplc::causes {
 
-/// Of the gateway between us and the motor.
+/// The state of a gateway between the client and the motor.
 struct GatewayState {
     std::uint32_t status = 0;       ///< its STATUS
     std::uint32_t safe_reason = 0;  ///< its SAFE_REASON
 };
 
-/// What `why` judges: the same registers twice, some time apart.
+/// The input of `why`: the same registers twice, some time apart.
 struct Condition {
     registers::Model model = registers::Model::mac140;
     Snapshot before{};
@@ -29,13 +29,13 @@ struct Condition {
 
 /// The registers that a condition needs; each once.
 std::vector<const registers::Register*> judged(registers::Model model);
-/// Those of `before`; the others are not looked at there.
+/// The ones used from `before`; the others are not read there.
 std::vector<const registers::Register*> judged_before(registers::Model model);
 
-/// What keeps the motor from moving, what to mend first in front. Pure; never empty: the last resort is
-/// "unknown", with what was looked at. A motor that moves is told as "moves".
+/// The causes that keep the motor from moving, the most urgent first. Pure; never empty: without another
+/// cause it is "unknown", with what was checked. A motor that moves is reported as "moves".
 std::vector<Finding> why(const Condition& condition);
-/// The same where nothing is known of the motor: what the gateway alone tells. May be empty.
+/// The same where nothing is known of the motor: the gateway's own findings. May be empty.
 std::vector<Finding> why(const GatewayState& gateway);
 /// "moves", of a motor whose velocity alone is known.
 Finding moving(registers::Model model, std::int64_t v_ist);

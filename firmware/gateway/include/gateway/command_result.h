@@ -12,7 +12,7 @@ namespace nplc::gateway {
 /// How a command or a write ended, as register RESULT has it, in one word.
 class CommandResult {
   public:
-    /// `detail`: of a table's fault the term.
+    /// `detail`: for a table fault, the number of the term.
     constexpr CommandResult(Result result = Result::done,
                             std::uint16_t detail = 0)  // NOLINT: implicit by purpose
         : word_(static_cast<std::uint32_t>(result) | (std::uint32_t{detail} << 16)) {}
@@ -23,7 +23,7 @@ class CommandResult {
     std::uint32_t word_;
 };
 
-/// Of a command that may take several polls: nothing while it is under way.
+/// Outcome of a command that may take several polls; empty while it is in progress.
 class Progress {
   public:
     constexpr Progress() = default;

@@ -5,9 +5,9 @@
 
 namespace nplc::gateway {
 
-/// The controller of one axis: the sequence, the stored table, the registers and the user's port, on a
-/// board's ports. It alone polls the motor and the store. Before it come the settings, by which a board opens
-/// its lines and makes the motor's driver; after it tables().start() or tables().use(), then poll().
+/// The controller of one axis: sequence, stored table, registers and user port on a board's ports. It alone
+/// polls the motor and the store. The settings are read first, since a board opens its lines and makes the
+/// motor driver from them. After construction call tables().start() or tables().use(), then poll().
 class Controller {
   public:
     struct Ports {
@@ -16,24 +16,24 @@ class Controller {
         ports::Watchdog& watchdog;
         motor::Motor& motor;
         ports::Storage& storage;
-        ports::SerialPort* user_line = nullptr;           ///< null: nobody is served
-        ports::SerialPort* motor_mactalk_line = nullptr;  ///< the motor's own; null: not wired
-        OwnRegisters::Lines shown_lines{};                ///< whose faults LINE_FAULTS shows
-        const store::Area* set_points = nullptr;          ///< of `storage`; null: none are kept
+        ports::SerialPort* user_line = nullptr;           ///< null: no user port
+        ports::SerialPort* motor_mactalk_line = nullptr;  ///< the motor's own MacTalk port; null: not wired
+        OwnRegisters::Lines shown_lines{};                ///< the lines whose faults LINE_FAULTS shows
+        const store::Area* set_points = nullptr;          ///< in `storage`; null: no set-points are stored
     };
 
-    /// Outputs get their safe values, and the tables' area of the storage is looked at. `table`: memory for
-    /// the active one.
+    /// Writes the safe values to the outputs and reads the tables' area of the storage. `table`: memory for
+    /// the active table.
     Controller(const Ports& ports, const store::Area& tables, std::span<std::uint8_t> table,
                SettingsManager& settings, StartCause cause);
     Controller(const Controller&) = delete;
     Controller& operator=(const Controller&) = delete;
 
-    /// As Gateway::poll asks for it.
+    /// To be called as often as Gateway::poll().
     void poll(base::Instant now);
-    /// The same, for the moment when nothing but an input has changed: the scan first, then the motor.
+    /// The same when only an input has changed: scans first, then polls the motor.
     void poll_after_edge(base::Instant now);
-    /// As of Gateway; the user's port and the store want it by then too.
+    /// As Gateway::next_poll(), with the deadlines of the user port and the store included.
     base::Instant next_poll(base::Instant now, base::Instant motors);
 
     Gateway& sequence() { return sequence_; }
@@ -51,7 +51,7 @@ class Controller {
     bool reset_asked() const { return registers_.reset_asked(); }
 
   private:
-    // Made in this order: those first that only note where the others are.
+    // Order of construction: members that only store references to later ones come first.
     motor::Motor& motor_;
     OwnRegisters registers_;
     UserPort user_port_;

@@ -7,8 +7,8 @@
 
 namespace nplc::gateway {
 
-/// Six inputs, each taken over once it has been steady for the debounce time. The first reading is taken as
-/// it is.
+/// Six inputs. A new level counts once it has been steady for the debounce time; the first reading counts at
+/// once.
 class Debouncer {
   public:
     explicit Debouncer(base::Microseconds steady) : steady_(steady) {}
@@ -16,7 +16,7 @@ class Debouncer {
     std::uint8_t update(std::uint8_t raw, base::Instant now);
     void set_steady(base::Microseconds steady) { steady_ = steady; }
     std::uint8_t levels() const { return levels_; }
-    /// When update() takes over a level at the earliest, if none changes meanwhile.
+    /// The earliest time at which update() accepts a new level, if no input changes before.
     base::Instant next_update() const;
 
   private:

@@ -9,8 +9,7 @@
 
 namespace nplc::gateway {
 
-/// The time since the start, and what happened lately. Entry number n, counted from 0, stands in slot n
-/// modulo the number of slots.
+/// Uptime and the latest events. Entry number n, counted from 0, is in slot n modulo the number of slots.
 class EventLog {
   public:
     static constexpr std::size_t kSlots = registers::gateway::kLogEntries;

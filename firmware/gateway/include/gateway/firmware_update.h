@@ -8,34 +8,34 @@
 #include "registers/gateway.h"
 #include "update/receiver.h"
 
-/// Whether the firmware can be renewed over the user's port: only on boards with a loader.
+/// Firmware update over the user port; only on boards with a boot loader.
 #ifndef NPLC_UPDATE
 #define NPLC_UPDATE 0
 #endif
 
 namespace nplc::gateway {
 
-/// The registers FIRMWARE_... on a board's update::Receiver (REGISTERS.md, Firmware).
+/// Maps the registers FIRMWARE_... (REGISTERS.md, Firmware) to a board's update::Receiver.
 class FirmwareUpdate {
   public:
     static constexpr bool kIsThere = true;
 
-    /// Before it is polled or asked anything.
+    /// To be called before all other functions.
     void attach(update::Receiver& receiver) { receiver_ = &receiver; }
 
     Result begin(std::uint32_t bytes) { return receiver_->begin(bytes); }
     Result commit(std::uint32_t length, std::uint32_t crc) { return receiver_->finish(length, crc); }
     Result abandon();
-    /// Offset and piece.
+    /// `bytes`: the offset (4 bytes), then the piece of the image.
     Result write(std::span<const std::uint8_t> bytes);
     std::uint32_t value(std::uint8_t reg) const;
 
-    /// An image on trial is healthy when it has run for kHealthyAfter and somebody has reached its user's
-    /// port: it can be renewed again.
+    /// Confirms an image on trial once it has run for kHealthyAfter and a client has reached the user port,
+    /// so that it can be updated again.
     void poll(std::uint32_t uptime, bool was_reached);
     static constexpr std::uint32_t kHealthyAfter = 10'000;  ///< milliseconds
-    /// From one erasure's begin to the next one's: a board may hear nothing meanwhile, and messages want to
-    /// be heard between.
+    /// Milliseconds from the start of one erase to the start of the next: a board may receive nothing during
+    /// an erase, and messages must get through in between.
     static constexpr std::uint32_t kEraseEvery = 50;
 
   private:

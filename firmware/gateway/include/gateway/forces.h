@@ -9,7 +9,7 @@ namespace nplc::gateway {
 
 using registers::gateway::Force;
 
-/// Forced inputs and outputs, and how long they still hold.
+/// Forced inputs and outputs, with their timeout.
 class Forces {
   public:
     const Force& inputs() const { return inputs_; }
@@ -27,7 +27,7 @@ class Forces {
     void renew(base::Instant now) { renewed_ = now; }
     void end() { inputs_ = outputs_ = {}; }
 
-    /// Until all end unless renewed; 0 if nothing is forced.
+    /// Time until all forces end unless renewed; 0 if nothing is forced.
     base::Microseconds left(base::Instant now, base::Microseconds time) const {
         if (!any() || now - renewed_ >= time) return {};
         return time - (now - renewed_);

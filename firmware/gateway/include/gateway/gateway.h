@@ -32,12 +32,12 @@ struct Settings {
     /// An input counts once it has been steady for this long; the loss of the enable input after 9 ms at the
     /// most.
     base::Microseconds debounce{3'000};
-    base::Microseconds longest_wait{1'000'000};   ///< of a scan for the motor to take or finish its orders
+    base::Microseconds longest_wait{1'000'000};   ///< limit of a scan's wait for the motor
     bool virtual_motor = false;                   ///< holding the sequence does not stop the motor
-    base::Microseconds force_time{5'000'000};     ///< forced signals end when nobody renews them for so long
+    base::Microseconds force_time{5'000'000};     ///< forced signals end unless renewed within this time
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
     bool require_proof = false;                   ///< a table without a certificate does not start
-    /// us; while the sequence is not stopped, a poll that comes so much later than due is an event.
+    /// us; a later poll is logged as an event unless the sequence is stopped.
     std::uint32_t poll_limit = 5'000;
 };
 
@@ -65,63 +65,69 @@ class Gateway {
     Gateway(const Gateway&) = delete;
     Gateway& operator=(const Gateway&) = delete;
 
-    /// Makes a table the current one; only while stopped, and only if the motor has all its orders (else
-    /// not_for_motor). The bytes must stay where they are. On a fault the
-    /// safe state is entered with bad_table, and nothing can run until a good table is loaded. `proven`: it
-    /// came with a certificate.
+    /// Makes a table the current one; only while stopped, and only if the motor supports all its orders (else
+    /// not_for_motor). The bytes must stay valid. On a fault the safe state is entered with bad_table, and
+    /// nothing can run until a good table is loaded. `proven`: the table came with a certificate.
     LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now, bool proven = false);
 
     /// The start-up is over: no table starts by itself any more.
     void end_start_up() { permission_.end_start_up(); }
-    /// In the start-up: nothing starts by itself, and `reason` is shown until run().
+    /// For the start-up: disables automatic start and shows `reason` until run().
     void block_start(SafeReason reason);
-    /// The same, for a store with which nobody has commanded run yet: until run() it waits_for_first_run().
-    void wait_for_first_run();
-    bool waits_for_first_run() const { return waits_for_first_run_; }
+    /// The same, and the store must say that somebody has commanded run before anything runs: a run() then
+    /// wants_mark() until mark_run(), or refuse_run_mark(), with which it has not started. not_started:
+    /// nobody has commanded run with this store yet.
+    void wait_for_mark(SafeReason reason);
+    bool needs_mark() const { return waits_because_ != SafeReason::none; }
+    bool waits_for_first_run() const { return waits_because_ == SafeReason::not_started; }
+    bool wants_mark() const { return needs_mark() && run_state_ == RunState::waiting_for_motor; }
+    void mark_run() { waits_because_ = SafeReason::none; }
+    bool is_mark_refused() const { return is_mark_refused_; }  ///< of the last run()
+    void refuse_run_mark() { is_mark_refused_ = needs_mark(); }
     /// The same, and until unlock() run() is refused with not_enabled and no other reason is shown.
     void lock(SafeReason reason);
     void unlock(SafeReason reason);
 
-    /// The board cannot do without what it lost: the safe state, and not enabled until the next start.
+    /// A required resource of the board is lost: enters the safe state; start is not enabled until the next
+    /// start-up.
     void withdraw(SafeReason reason, base::Instant now);
 
-    /// Has the motor the order of this term, if it has one?
+    /// Whether the motor supports the order of this term; true if the term has none.
     bool motor_takes(sequencer::TermView term) const { return scan_.motor_takes(term); }
 
-    /// From the beginning, or on from where it is held, the motor in the mode that it was stopped in; without
-    /// hold if has_single(). Errors: no_table; not_stopped when it runs already; not_enabled: from the
-    /// beginning only with the enable input on, so that closing a guard starts nothing, and not while locked;
-    /// cannot_go_on; stop_unconfirmed.
+    /// Starts from step 0, or continues from a hold with the motor put back into its mode from before the
+    /// hold; cancels the hold after a single scan or step if has_single(). Errors: no_table; not_stopped when
+    /// it already runs; not_enabled: the enable input is off, so that closing a guard
+    /// starts nothing, or locked; no_proof; cannot_go_on; stop_unconfirmed.
     base::Status run();
-    /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
-    /// held. Errors as run().
-    /// Until then has_single(); run() and hold() give it up.
+    /// Runs one scan, or scans until the step changes, from the hold or from step 0, then holds. Until then
+    /// has_single(); run() and hold() cancel it. Errors as run().
     base::Status scan_once() { return run_until(HoldControl::After::scan); }
     base::Status step_once() { return run_until(HoldControl::After::step); }
-    /// Holds it at the end of the scan: its orders are executed, for 500 ms at the most, and the motor is
-    /// told to stop first, unless Settings::virtual_motor says otherwise. The timer stands meanwhile, the
-    /// outputs stay. Error: no_table if it is stopped.
+    /// Holds the sequence at the end of the scan, once the scan's orders have been executed (500 ms at the
+    /// most) and the motor was told to stop, unless Settings::virtual_motor. During the hold the timer is
+    /// paused and the outputs keep their values. Error: no_table if stopped.
     base::Status hold();
-    /// A scan_once() or step_once() is not done yet.
+    /// A scan_once() or step_once() is still in progress.
     bool has_single() const { return hold_.has_single(); }
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
-    /// The motor was told to stop and has not confirmed it since: it may be moving. Nothing is to be
-    /// confirmed of a virtual motor.
+    /// The motor was told to stop and has not confirmed it yet: it may be moving. Always false with a virtual
+    /// motor.
     bool stop_unconfirmed() const { return !settings_.virtual_motor && !motor_.stop_confirmed(); }
-    std::uint32_t stop_asked() const { return stop_asked_; }  ///< uptime() then
-    /// A stop that is not confirmed is not repeated any more, and run() is possible.
+    std::uint32_t stop_asked() const { return stop_asked_; }  ///< uptime() of that stop
+    /// Ends the repetition of an unconfirmed stop and makes run() possible.
     void give_up_stop();
-    /// Ends forces and breakpoints too.
+    /// Enters the safe state, ends all forces and clears the breakpoints.
     void make_safe(base::Instant now);
 
-    /// Bit n: it is held when it enters step n, before the first scan there.
+    /// Bit n: the sequence is held when it enters step n, before the first scan there.
     void set_breakpoints(std::uint64_t steps) { hold_.set_breakpoints(steps); }
     std::uint64_t breakpoints() const { return hold_.breakpoints(); }
     bool at_breakpoint() const { return run_state_ == RunState::held && hold_.at_breakpoint(); }
-    /// What the motor did before it was held can be taken up again: a move to P_SOLL, the speed V_SOLL, or
-    /// nothing. Else run() and the like answer cannot_go_on.
+    /// The motor's mode before the hold is known, so that its motion can be resumed: a move to P_SOLL, the
+    /// speed V_SOLL, or none. Else run(), scan_once() and step_once() return cannot_go_on.
     bool can_go_on() const { return settings_.virtual_motor || scan_.mode().is_known(); }
-    /// Somebody else has told the motor something.
+    /// Motor mode is unknown after a direct user write.
     void forget_mode() { scan_.mode().forget(); }
 
     void force_inputs(const Force& force, base::Instant now);
@@ -136,35 +142,36 @@ class Gateway {
 
     /// To be called at least once a millisecond, after the motor's own poll.
     void poll(base::Instant now);
-    /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
-    /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
-    /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that
-    /// were looked at. `motors`: the driver's own next_poll().
+    /// Alternative to polling every millisecond: poll whenever something arrives (a byte from the motor, a
+    /// change of an input) and at this time at the latest. To be asked after each poll() and each call that
+    /// changes something; `now` or earlier: poll at once. The watchdog may need an earlier poll. Time slept
+    /// is not scan time, and scans() counts only the scans that were polled. `motors`: the driver's own
+    /// next_poll().
     base::Instant next_poll(base::Instant now, base::Instant motors);
-    /// Least time between a scan that did something and the next one; 0, as often as it is polled. For who
-    /// goes by next_poll(): a table may do something in every scan.
+    /// Minimum time from a scan that changed something to the next one; 0: at every poll. For boards that go
+    /// by next_poll(): a table may change something in every scan.
     void pace(base::Microseconds least) { scan_.pace(least); }
 
     void observe(Observer* observer) { scan_.observe(observer); }
-    /// Whose changes a scan takes before it begins.
+    /// The source of the value changes that a scan takes before it begins.
     void take_values_from(ValueSource& source) { scan_.take_values_from(source); }
 
     RunState run_state() const { return run_state_; }
     SafeReason safe_reason() const { return safe_.reason(); }
-    base::Instant safe_since() const { return safe_.since(); }  ///< when safe_reason() took hold
+    base::Instant safe_since() const { return safe_.since(); }  ///< when safe_reason() was set
     const sequencer::State& state() const { return scan_.state(); }
     sequencer::InputImage image() const { return scan_.image(); }  ///< HW_INP of the last scan
-    /// Finished, those skipped because nothing could change included.
+    /// Finished scans, with those skipped because nothing could change.
     std::uint32_t scans() const { return scan_.times().scans(); }
     const sequencer::Table& table() const { return scan_.table(); }
-    /// Of the last scan: its step, and what its conditions saw.
+    /// Of the last scan: its step, and the key that its conditions were evaluated with.
     std::uint8_t scanned_step() const { return scan_.scanned_step(); }
     sequencer::Key scanned_key() const { return scan_.scanned_key(); }
     base::Microseconds scan_time() const {
         return scan_.times().last();
     }  ///< between the last two scans' ends
     base::Microseconds worst_scan_time() const { return scan_.times().worst(); }  ///< since run()
-    /// Of scans and of polls.
+    /// Clears the worst scan time and the worst poll delay.
     void clear_worst() {
         scan_.times().clear_worst();
         polls_.clear_worst();
@@ -214,16 +221,17 @@ class Gateway {
     void show_outputs();
     base::Instant next_work(base::Instant now) const;
 
-    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
+    // Small members first: a 16-bit Thumb load or store reaches only the first 32 to 128 bytes of an object.
     ports::Watchdog& watchdog_;
     motor::Motor& motor_;
     RunState run_state_ = RunState::stopped;
     bool is_proven_ = false;        ///< the table came with a certificate
-    bool stop_ordered_ = false;     ///< on the way to running, or to being held
+    bool stop_ordered_ = false;     ///< since the start, or the hold, began
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
     bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
-    bool waits_for_first_run_ = false;
-    std::uint8_t motor_fault_ = 0;  ///< as noted in the log
+    bool is_mark_refused_ = false;  ///< of the last run()
+    SafeReason waits_because_ = SafeReason::none;  ///< until somebody's run() is marked in the store
+    std::uint8_t motor_fault_ = 0;                 ///< as noted in the log
     StartPermission permission_;
     SafeState safe_;
     std::uint32_t stop_asked_ = 0;

@@ -13,12 +13,12 @@ class HoldControl {
     bool has_single() const { return after_ == After::scan || after_ == After::step; }
     bool is_at_once() const { return after_ == After::at_once; }
 
-    /// Bit n: at the entry of step n.
+    /// Bit n: hold at the entry of step n.
     void set_breakpoints(std::uint64_t steps) { breakpoints_ = steps; }
     std::uint64_t breakpoints() const { return breakpoints_; }
     bool breaks_at(std::uint8_t step) const { return ((breakpoints_ >> step) & 1U) != 0; }
 
-    /// A scan has ended; was it the last one?
+    /// To be asked after each scan: the single scan or step is complete.
     bool is_due(bool entered_step) const {
         return after_ == After::scan || (after_ == After::step && entered_step);
     }
@@ -27,7 +27,7 @@ class HoldControl {
         after_ = After::never;
         at_breakpoint_ = at_breakpoint;
     }
-    /// The last hold was a breakpoint's.
+    /// The last hold was at a breakpoint.
     bool at_breakpoint() const { return at_breakpoint_; }
     void leave(After after) {
         after_ = after;

@@ -15,21 +15,20 @@ namespace nplc::gateway {
 #define NPLC_MODBUS 0
 #endif
 
-/// Modbus RTU on the user's port of a board without an operating system, beside MacTalk: who asks in which of
-/// the two is answered in it. The slave is the setting gateway_address; the map is that of all boards
-/// (registers/modbus_map.h), without scaled values and set-points. Knows no line.
+/// Modbus RTU on the user port of a board without an operating system, beside MacTalk: a request is answered
+/// in the protocol it was sent in. The slave address is the setting gateway_address; the register map is that
+/// of all boards (registers/modbus_map.h), without scaled values and set-points. Does no I/O.
 class ModbusSlave {
   public:
     explicit ModbusSlave(Gateway& gateway, OwnRegisters& own) : gateway_(gateway), own_(own) {}
 
-    /// A character has come. True: a request for `unit` is whole, and begin() is due.
+    /// Takes a received character. True: a request for `unit` is complete, and begin() must be called.
     bool take(std::uint8_t byte, std::uint8_t unit, base::Instant now);
-    /// What has come was a message in the other language.
+    /// The received characters were a MacTalk message: discards them.
     void pass_over() { static_cast<void>(reader_.silence()); }
-    /// With an error, or lost.
+    /// A character was damaged or lost.
     void damaged(base::Instant now);
-    /// Looks for the pause that ends what was damaged. True: as of take(), of a request whose length nobody
-    /// knows.
+    /// Detects the silence that ends a frame. True: as take(), for a request of unknown length.
     bool poll(std::uint8_t unit, base::Instant now, std::uint32_t baud);
 
     /// What a request needs before it is answered.
@@ -39,20 +38,20 @@ class ModbusSlave {
         motor,
     };
     Need begin(base::Instant now);
-    /// Of own_write: register and value.
+    /// For Need::own_write: register and value.
     std::uint8_t reg() const { return reg_; }
     std::uint32_t value() const { return value_; }
-    /// Of motor: the same that a MacTalk client would ask.
+    /// For Need::motor: the equivalent MacTalk request.
     const protocol::mactalk::Request& motor_request() const { return motor_; }
 
     void end_write(const Progress& outcome);
     void end_motor(std::span<const std::uint8_t> data);
-    /// Not carried out: `result` says why.
+    /// The request was not carried out: answers with the exception for `result`.
     void refuse(Result result);
-    /// Another message came, or it was taken: nobody waits.
+    /// Discards the answer, because another message came or it was sent.
     void drop() { size_ = sent_ = 0; }
 
-    /// What of the answer is to go out. `now`: the line was last heard so long ago that it may.
+    /// The part of the answer still to send; empty at `now` while the silence between frames has not passed.
     std::span<const std::uint8_t> out(base::Instant now, std::uint32_t baud) const;
     void note_sent(std::size_t count) { sent_ += count; }
     bool has_out() const { return sent_ < size_; }
@@ -88,7 +87,7 @@ class ModbusSlave {
     bool is_handshake_ = false;
     base::Instant heard_{};
 
-    // As of firmware/faces/modbus: nothing starts before a 0 has been seen.
+    // As in firmware/faces/modbus: a command is accepted only after a 0 was written.
     bool is_armed_ = false;
     std::uint8_t coils_ = 0;
     std::uint8_t coils_were_off_ = 0;
@@ -108,7 +107,7 @@ class ModbusSlave {
     std::array<std::uint8_t, protocol::modbus::kMostFrame> out_;
 };
 
-/// In its place in a firmware without Modbus.
+/// Replaces ModbusSlave in a firmware without Modbus.
 struct NoModbusSlave {
     using Need = ModbusSlave::Need;
     NoModbusSlave(Gateway&, OwnRegisters&) {}

@@ -10,26 +10,26 @@
 
 namespace nplc::gateway {
 
-/// What of a client's messages to the motor is carried over FlexMAC: register reads and writes, answered as
-/// the motor would. A block is 16 longwords one after the other.
+/// Carries a client's register reads and writes to the motor over FlexMAC, answered as the motor would. A
+/// block is read as 16 longwords, one after the other.
 class MotorBridge {
   public:
     explicit MotorBridge(motor::Motor& motor) : motor_(motor) {}
 
     static bool carries(protocol::mactalk::Kind kind);
 
-    /// Read, block read or write. What was begun before is dropped.
+    /// `request`: a read, block read or write. Drops the one before.
     void begin(const protocol::mactalk::Request& request, base::Instant now);
     void drop();
 
     enum class State : std::uint8_t { under_way, answered, failed };
-    /// `pause`: least time between two of the accesses. `answered` and `failed` come once.
+    /// `pause`: minimum time between two accesses. `answered` and `failed` are returned once.
     State poll(base::Instant now, base::Microseconds pause);
-    /// When it must be polled at the latest if the motor's driver has nothing new.
+    /// Latest time of the next poll if the motor's driver has nothing new.
     base::Instant next_poll(base::Instant now, base::Microseconds pause) const;
     /// After `answered`.
     protocol::mactalk::EncodedReply answer() const;
-    /// The same of a read, as the motor has the bytes.
+    /// For a read, the register's bytes as the motor sends them.
     std::span<const std::uint8_t> data() const { return data_; }
 
   private:
@@ -45,7 +45,7 @@ class MotorBridge {
     std::uint8_t failures_ = 0;
     bool asked_ = false;
     base::Instant begun_{};
-    base::Instant ended_{};  ///< of the access before
+    base::Instant ended_{};  ///< end of the previous access
 };
 
 }  // namespace nplc::gateway

@@ -6,19 +6,19 @@
 
 namespace nplc::gateway {
 
-/// The mode that a sequence's orders have led the motor to (001 §5.2.1.4), as far as that can be told: so
-/// that a motor that was stopped can be given its mode back.
+/// Tracks the motor's mode (001 §5.2.1.4) from the sequence's orders, as far as it can be derived, so that it
+/// can be restored after a hold.
 class MotorMode {
   public:
     bool is_known() const { return mode_ != kUnknown; }
     void forget() { mode_ = kUnknown; }
-    /// Mode 0: it has stopped by itself, or was told to.
+    /// Mode 0: the motor has stopped by itself or was told to.
     void set_passive() { mode_ = kPassive; }
     void follow(const sequencer::MotorOrder& order);
 
     bool is_passive() const { return mode_ == kPassive; }
     bool is_velocity() const { return mode_ == 1; }
-    /// MODE_REG := the mode. P_SOLL and V_SOLL are as they were, so nothing is moved twice.
+    /// MODE_REG := the mode. P_SOLL and V_SOLL are unchanged, so no move is repeated.
     sequencer::MotorOrder order(bool longword) const;
 
   private:

@@ -5,10 +5,10 @@
 
 namespace nplc::gateway {
 
-/// Someone who watches the sequence: traces, tests, the user port. Called from Gateway::poll.
+/// Listener of the sequence: traces, tests, the user port. Called from Gateway::poll.
 class Observer {
   public:
-    /// An order of a true term was handed to the motor, in table order.
+    /// An order of a true term was passed to the motor, in table order.
     virtual void ordered(base::Instant now, const sequencer::MotorOrder& order) = 0;
 
     /// A scan that was not skipped has finished. `before` and `image` are what its conditions saw.

@@ -11,50 +11,50 @@
 
 namespace nplc::gateway {
 
-/// What the user's port counts itself.
+/// The user port's own counters.
 struct PortCounters {
     std::uint32_t messages = 0;
     std::uint32_t refused = 0;
 };
 
-/// The gateway's own registers (REGISTERS.md): what a number reads, and what a write does.
+/// The gateway's own registers (REGISTERS.md): reads, and the effects of writes.
 class OwnRegisters {
   public:
-    /// Whose faults LINE_FAULTS shows, in its order; null: none.
+    /// The lines whose faults LINE_FAULTS shows, in its order; null: none.
     using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
 
     OwnRegisters(Gateway& gateway, TableManager& tables, SetPointsPart& set_points, SettingsManager& settings,
                  const Lines& lines)
         : gateway_(gateway), tables_(tables), set_points_(set_points), settings_(settings), lines_(lines) {}
 
-    /// 4 bytes of one register, or 64 of sixteen. Reading FIRED_SCAN, and a block from TABLE_DATA, have
-    /// effects.
+    /// `out`: 4 bytes for one register, or 64 for sixteen. Reading FIRED_SCAN, and a block from TABLE_DATA,
+    /// has side effects.
     void read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now);
 
-    /// Begins a write, 2 or 4 bytes, or more for TABLE_DATA. poll_write() says how it ended.
+    /// Begins a write of 2 or 4 bytes, or more for TABLE_DATA. poll_write() returns its outcome.
     void begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now);
-    /// `bytes` as before. RESULT has the outcome too.
+    /// `bytes`: as in begin_write(). The outcome is also in RESULT.
     Progress poll_write(std::span<const std::uint8_t> bytes, base::Instant now);
-    /// The same of a write to SET_POINT_WRITE, which is beside the others: SetPoints::serve().
+    /// The same for a write to SET_POINT_WRITE, which is independent of the others: SetPoints::serve().
     Progress serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
                               base::Instant now);
-    /// Nobody waits for the write any more.
+    /// The client no longer waits for the write.
     void drop_write();
 
-    /// For who writes beside the user's port: RESULT is that port's, and so is put back after such a write.
+    /// For writers other than the user port: RESULT belongs to that port and is restored after their writes.
     std::uint32_t result() const { return result_; }
     void set_result(std::uint32_t result) { result_ = result; }
-    /// Another number for every write begun.
+    /// Changes with every write begun.
     std::uint8_t writes_begun() const { return writes_begun_; }
-    std::uint8_t written() const { return written_; }  ///< the register of the last of them
+    std::uint8_t written() const { return written_; }  ///< register of the last write
 
     FirmwarePart& firmware() { return firmware_; }
     const SettingsManager& settings() const { return settings_; }
     PortCounters& port() { return port_; }
-    /// A user has asked for a reset, and nothing of set-points is being stored.
+    /// A client has requested a reset, and no set-point request is being stored.
     bool reset_asked() const { return reset_asked_ && !set_points_.stores(); }
     void poll();
-    /// When poll(), and poll_write() while a write is not done, must be called at the latest.
+    /// Latest time of the next poll(), and of poll_write() while a write is in progress.
     base::Instant next_poll(base::Instant now);
 
   private:
@@ -62,7 +62,7 @@ class OwnRegisters {
     static constexpr bool kHasFirmware = FirmwarePart::kIsThere;
 
     /// What poll_write() still has to wait for.
-    enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving };
+    enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving, mark };
 
     std::uint32_t value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;
@@ -80,6 +80,7 @@ class OwnRegisters {
     Progress write_value(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Result force(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Progress command(std::uint32_t value, base::Instant now);
+    Progress started(const base::Status& status);
     Progress reset(base::Instant now);
     Progress table_command(registers::gateway::Command command, base::Instant now);
     Progress write_table(std::span<const std::uint8_t> bytes);
@@ -94,7 +95,7 @@ class OwnRegisters {
     PortCounters port_;
     Lines lines_;
     bool reset_asked_ = false;
-    [[no_unique_address]] FirmwarePart firmware_;  ///< where the firmware has it
+    [[no_unique_address]] FirmwarePart firmware_;  ///< if the firmware supports it
 
     std::uint8_t written_ = 0;
     std::uint8_t writes_begun_ = 0;

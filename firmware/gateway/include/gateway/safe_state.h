@@ -13,7 +13,7 @@ enum class StartCause : std::uint8_t {
     service,  ///< for maintenance: not enabled, whatever the settings say, until the next start
 };
 
-/// What allows the sequence to be started, beside the enable input.
+/// What allows the sequence to start, besides the enable input.
 class StartPermission {
   public:
     explicit StartPermission(StartCause cause)
@@ -27,13 +27,13 @@ class StartPermission {
     void end_start_up() { starting_up_ = false; }
 
     void lock(SafeReason reason) { locked_by_ = reason; }
-    /// False if it is not locked by `reason`.
+    /// False if the lock has another reason.
     bool unlock(SafeReason reason) {
         if (locked_by_ != reason) return false;
         locked_by_ = SafeReason::none;
         return true;
     }
-    /// The reason of the lock, or else `reason`.
+    /// The reason of the lock, or `reason` if there is no lock.
     SafeReason shown(SafeReason reason) const { return locked_by_ == SafeReason::none ? reason : locked_by_; }
 
   private:
@@ -42,14 +42,14 @@ class StartPermission {
     SafeReason locked_by_ = SafeReason::none;
 };
 
-/// Why the outputs are safe, and since when.
+/// The reason of the safe state, and since when it holds.
 class SafeState {
   public:
     SafeReason reason() const { return reason_; }
     base::Instant since() const { return since_; }
     std::uint32_t since_uptime() const { return since_uptime_; }
 
-    /// True if the reason is another one than before.
+    /// True if the reason has changed.
     bool enter(SafeReason reason, base::Instant now, std::uint32_t uptime) {
         if (reason_ == reason) return false;
         reason_ = reason;
@@ -57,7 +57,7 @@ class SafeState {
         since_uptime_ = uptime;
         return true;
     }
-    /// Another reason for the state that it is in since the start.
+    /// Replaces the reason of the present safe state, keeping its time.
     void set_reason(SafeReason reason) { reason_ = reason; }
     void leave() { reason_ = SafeReason::none; }
 

@@ -13,7 +13,7 @@
 
 namespace nplc::gateway {
 
-/// How many scans there were and how long they took, end to end. What was slept is no scan time.
+/// Number and duration of scans, end to end. Time slept is not scan time.
 class ScanTimes {
   public:
     std::uint32_t scans() const { return scans_; }
@@ -21,7 +21,7 @@ class ScanTimes {
     base::Microseconds worst() const { return worst_; }
     void clear_worst() { worst_ = {}; }
 
-    /// The next scan has no time.
+    /// The next scan is not timed.
     void interrupt() { ended_.reset(); }
     void note_end(base::Instant now) {
         ++scans_;
@@ -30,7 +30,7 @@ class ScanTimes {
         ended_ = now;
     }
     void sleep_until(base::Instant next) { asleep_until_ = next; }
-    /// `idle`: nothing could change while it slept.
+    /// `idle`: nothing could change during the sleep.
     void wake(bool idle, base::Instant now) {
         if (idle && ended_ && asleep_until_) ended_ = now < *asleep_until_ ? now : *asleep_until_;
         asleep_until_.reset();
@@ -44,13 +44,13 @@ class ScanTimes {
     std::optional<base::Instant> asleep_until_;
 };
 
-/// The scans of a table on a motor (001 §6.1.9): HW_INP, orders, timer. A scan halts while the motor has no
-/// room for an order, and one in which nothing can happen is finished at once.
+/// The scans of a table on a motor (001 §6.1.9): HW_INP, orders, timer. A scan waits while the motor has no
+/// room for an order, and one that cannot change anything is skipped.
 class SequenceScan {
   public:
     enum class Result : std::uint8_t {
-        waiting,  ///< for the motor, or for the pace
-        skipped,  ///< nothing could happen
+        waiting,  ///< for the motor, or for the minimum scan interval
+        skipped,  ///< nothing could change
         finished,
     };
 
@@ -58,31 +58,31 @@ class SequenceScan {
     SequenceScan(const SequenceScan&) = delete;
     SequenceScan& operator=(const SequenceScan&) = delete;
 
-    /// Makes a table the current one, or none if it has a fault; not_for_motor: the motor does not have one
-    /// of its orders.
+    /// Makes a table the current one, or none if it has a fault; not_for_motor: the motor does not support
+    /// one of its orders.
     std::optional<sequencer::TableFault> load(std::span<const std::uint8_t> bytes);
     bool motor_takes(sequencer::TermView term) const;
 
-    /// To step 0.
+    /// Back to step 0.
     void reset();
-    /// The sequence runs from here on.
+    /// Starts the sequence at `now`.
     void start(base::Instant now);
-    /// The next scan is the first after having been held.
+    /// The next scan is the first one after a hold.
     void resume();
-    /// Drops a scan under way.
+    /// Drops a scan in progress.
     void abort();
 
-    /// Takes the time that has passed off the timer.
+    /// Subtracts the elapsed time from the timer.
     void count_timer(base::Instant now);
     bool is_under_way() const { return in_scan_; }
     Result poll(std::uint8_t inputs, base::Instant now);
-    /// Step, counter, timer and outputs of a scan that is `finished`, to the observer.
+    /// Reports a `finished` scan to the observer: step, counter, timer and outputs.
     void report(base::Instant now) const;
     bool has_entered_step() const { return engine_.state().step != before_.step; }
 
-    /// When poll() has something to do if nothing arrives.
+    /// When poll() has work to do if nothing arrives.
     base::Instant next_poll(std::uint8_t inputs, base::Microseconds longest_wait, base::Instant now) const;
-    /// The motor was given something to do.
+    /// The motor was given an order.
     void note_progress(base::Instant now) { progress_ = now; }
     base::Instant patience(base::Microseconds longest_wait) const {
         return progress_ + longest_wait + base::Microseconds(1);
@@ -91,7 +91,7 @@ class SequenceScan {
         return now - progress_ > longest_wait;
     }
 
-    /// Least time between a scan that did something and the next one.
+    /// Minimum time from a scan that changed something to the next one.
     void pace(base::Microseconds least) { pace_ = least; }
     void observe(Observer* observer) { observer_ = observer; }
     void take_values_from(ValueSource& source) { values_ = &source; }
@@ -104,7 +104,7 @@ class SequenceScan {
 
     const sequencer::Table& table() const { return table_; }
     const sequencer::State& state() const { return engine_.state(); }
-    /// Of the last scan: HW_INP, its step, and what its conditions saw.
+    /// Of the last scan: HW_INP, its step, and the key that its conditions were evaluated with.
     sequencer::InputImage image() const { return image_; }
     std::uint8_t scanned_step() const { return before_.step; }
     sequencer::Key scanned_key() const { return sequencer::key_of(image_, before_); }
@@ -117,21 +117,21 @@ class SequenceScan {
     void finish(base::Instant now);
     sequencer::InputImage present_image(std::uint8_t inputs) const;
 
-    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
+    // Small members first: see Gateway.
     motor::Motor& motor_;
     Observer* observer_ = nullptr;
     ValueSource* values_ = nullptr;
     bool in_scan_ = false;
     bool resumes_ = false;
-    bool idle_ = false;  ///< nothing could change at the last look
+    bool idle_ = false;  ///< nothing could change at the last scan
     MotorMode mode_;
     sequencer::InputImage image_ = 0;
     std::optional<sequencer::Key> unchanged_key_;  ///< a scan with this key would do nothing
-    sequencer::State before_;                      ///< as the last scan found it
+    sequencer::State before_;                      ///< before the last scan
     std::optional<sequencer::MotorOrder> waiting_order_;
     sequencer::Engine engine_{table_};
     base::Instant progress_{};  ///< last time that a scan did not have to wait
-    base::Instant ticked_{};    ///< the timer has been counted up to here
+    base::Instant ticked_{};    ///< the timer is counted up to this time
     base::Microseconds pace_{};
     base::Instant next_scan_{};
     ScanTimes times_;

@@ -14,12 +14,12 @@
 
 namespace nplc::gateway {
 
-/// The set-points of the active table: the values in force, which stand in its terms; the wanted ones, which
-/// are stored and take hold when the sequence lets them; and the recipes. Needs no store that works: without
-/// one the defaults run and nothing can be changed. SET_POINTS.md tells all.
+/// The set-points of the active table: the values in force, which are in its terms; the wanted values, which
+/// are stored and take effect at the next permitted point of the sequence; and the recipes. Without a working
+/// store the defaults apply and nothing can be changed. See SET_POINTS.md.
 class SetPoints final : public ValueSource {
   public:
-    /// `area`: null where the board keeps none.
+    /// `area`: null on a board without storage for set-points.
     SetPoints(Gateway& gateway, ports::Storage& storage, const store::Area* area);
     SetPoints(const SetPoints&) = delete;
     SetPoints& operator=(const SetPoints&) = delete;
@@ -27,63 +27,72 @@ class SetPoints final : public ValueSource {
     static constexpr bool kIsThere = true;
     static constexpr std::size_t kRecordMemory = registers::set_points::kMostRecordBytes;
 
-    /// For the start-up: looks at the store.
+    /// For the start-up: reads the store.
     void mount();
-    /// What was stored is damaged: a table that has set-points starts nothing by itself.
+    /// The stored values are damaged: a table with set-points does not start automatically.
     bool were_damaged() const { return damaged_; }
-    /// Is what begins at `behind_end_term` a record? 0: none.
+    /// Length of the record at the start of `behind_end_term`; 0: none.
     static std::size_t record_bytes(std::span<const std::uint8_t> behind_end_term) {
         return registers::set_points::record_bytes(behind_end_term);
     }
     static bool is_sound(std::span<const std::uint8_t> record, std::span<const std::uint8_t> table) {
         return registers::set_points::is_sound(record, table);
     }
-    /// The table in use from now on, whose bytes get the values, and its record; empty: it has none. Only
-    /// while stopped.
+    /// Sets the active table, whose bytes get the values in force, and its record; empty: the table has none.
+    /// Only while stopped.
     void use(std::span<std::uint8_t> table, std::span<const std::uint8_t> record);
-    /// Puts the defaults back into a copy of a part of the table, from byte `offset` on.
+    /// Restores the defaults in a copy of a part of the table that begins at byte `offset`.
     void show_defaults(std::span<std::uint8_t> part, std::size_t offset) const;
 
-    /// Who writes to SET_POINT_WRITE, from the write to its end.
+    /// A client's write to SET_POINT_WRITE, from its start to its end.
     struct Writer {
         Origin origin{};
         base::Instant since{};
         std::uint32_t request = 0;  ///< 0: not begun
+        void begin(Origin who, base::Instant now) {
+            origin = who;
+            since = now;
+            request = 0;
+        }
     };
-    /// One request at a time is stored, and it is whether its writer still waits or not. `bytes` are needed
-    /// until it has begun, which ends with `busy` if others' storing takes kLongestWait; then nothing but its
-    /// real end counts. The same request again is not carried out twice.
+    /// One request at a time is stored, and a request that has begun is completed even if its client no
+    /// longer waits. `bytes` must stay valid until it has begun; if it cannot begin within kLongestWait it
+    /// ends with `busy`, afterwards only its real outcome counts. A request repeated with the same number is
+    /// not carried out twice.
     Progress serve(Writer& writer, std::span<const std::uint8_t> bytes, base::Instant now);
     static constexpr base::Microseconds kLongestWait{1'000'000};
     bool stores() const { return saving_; }
     std::uint32_t pointer() const { return pointer_; }
     void point_at(std::uint32_t pointer) { pointer_ = pointer; }
-    /// The block that is read from SET_POINT_POINTER: the pointer, then what it points at.
+    /// Reads the block at SET_POINT_POINTER: the pointer, then the data it points at.
     void read_window(std::span<std::uint8_t> out);
 
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
 
-    /// Registers SET_POINT_COUNT to SET_POINT_BYTES, SET_POINT and SET_POINT_WANTED with those behind them.
+    /// Registers SET_POINT_COUNT to SET_POINT_BYTES, and the SET_POINT and SET_POINT_WANTED registers.
     std::uint32_t value(std::uint8_t reg);
-    /// What SET_POINT_POINTER points at; 0 behind its end.
+    /// The data that SET_POINT_POINTER points at; 0 beyond its end.
     void read(std::uint32_t pointer, std::span<std::uint8_t> out);
 
     /// Of what happened, for journals: the `age`th last change, 0 the last one.
+    /// In memory as they are read.
     struct Change {
         std::uint32_t milliseconds = 0;  ///< of uptime
         std::uint8_t index = 0;
         Origin origin{};
         std::uint8_t recipe = 0;  ///< that was loaded; 0: a value was set
+        std::uint8_t unused = 0;
         std::int32_t before = 0;
         std::int32_t now = 0;
     };
+    static_assert(sizeof(Change) == registers::gateway::kChangeBytes && sizeof(Origin) == 1);
     /// Another number whenever the record or a recipe may be another one.
     std::uint32_t edition() const { return edition_; }
     static constexpr std::size_t kKeptChanges = 16;
     std::uint32_t changes() const { return changes_; }
     const Change& change(std::size_t age) const { return ring_[(changes_ - 1U - age) % kKeptChanges]; }
-    /// How many of them are of the record in use, and kept.
+    /// Number of stored changes that belong to the current record.
     std::size_t shown_changes() const {
         return std::min<std::size_t>(changes_ - first_change_, kKeptChanges);
     }
@@ -100,7 +109,7 @@ class SetPoints final : public ValueSource {
         Origin origin{};
         std::uint8_t recipe = 0;
         std::uint16_t mask = 0;
-        std::uint16_t dropped = 0;  ///< of a recipe, as of find_values()
+        std::uint16_t dropped = 0;  ///< when a recipe is loaded: result of find_values()
         std::span<const std::uint8_t> name;
         std::span<const std::uint8_t> values;
         std::span<const std::uint8_t> units;
@@ -129,11 +138,12 @@ class SetPoints final : public ValueSource {
     bool damaged_ = false;
     bool saving_ = false;
     std::uint32_t pointer_ = 0;
-    bool is_for_other_table_ = false;  ///< the table was exchanged since the request was taken
-    std::uint16_t to_write_ = 0;       ///< a bit each: changed, and POWER_UP writes it
-    std::uint16_t dropped_ = 0;        ///< to be logged
+    bool is_for_other_table_ = false;  ///< the table was replaced after the request was accepted
+    std::uint16_t to_write_ = 0;       ///< bit mask: changed values that POWER_UP writes
+    std::uint16_t dropped_ = 0;        ///< still to be logged
     Request request_;
-    /// The last ones, refused or not; that of number n at n % kKeptRequests. In memory as they are read.
+    /// The last requests, refused ones included; number n is at n % kKeptRequests. Clients read this memory
+    /// as it is.
     struct Asked {
         std::uint32_t own_number = 0;
         Progress outcome;
@@ -145,17 +155,17 @@ class SetPoints final : public ValueSource {
     registers::set_points::Record record_;
     std::uint32_t record_crc_ = 0;
     std::uint32_t changes_ = 0;
-    std::uint32_t changed_record_ = 0;  ///< whose values changes are shown of
-    std::uint32_t first_change_ = 0;    ///< those before it are of another record
+    std::uint32_t changed_record_ = 0;  ///< the record that `ring_` belongs to
+    std::uint32_t first_change_ = 0;    ///< older changes belong to another record
     std::uint32_t edition_ = 0;
     Values in_force_{};
     Values wanted_{};
-    Values after_{};  ///< what is wanted once the request is stored
+    Values after_;  ///< what is wanted once the request is stored
     std::array<Change, kKeptChanges> ring_{};
     store::SetPointStore store_;
 };
 
-/// In the place of SetPoints in a firmware that has none.
+/// Replaces SetPoints in a firmware without set-points.
 struct NoSetPoints {
     NoSetPoints(Gateway&, ports::Storage&, const store::Area*) {}
     static constexpr bool kIsThere = false;
@@ -169,8 +179,7 @@ struct NoSetPoints {
     static void use(std::span<std::uint8_t>, std::span<const std::uint8_t>) {}
     static void show_defaults(std::span<std::uint8_t>, std::size_t) {}
     struct Writer {
-        Writer() = default;
-        Writer(Origin, base::Instant) {}
+        static void begin(Origin, base::Instant) {}
         static constexpr std::uint32_t request = 0;
     };
     static Progress serve(const Writer&, std::span<const std::uint8_t>, base::Instant) {

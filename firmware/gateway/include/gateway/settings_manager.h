@@ -7,10 +7,10 @@
 
 namespace nplc::gateway {
 
-/// A gateway's settings among those that are stored, and back.
+/// A gateway's settings, taken from the stored settings, and back.
 Settings settings_of(const store::SettingValues& values);
 store::SettingValues values_of(const Settings& settings);
-/// Those of the drive and the line to it, which take hold at a reset.
+/// The settings of the drive and its line, which take effect at a reset.
 motor::DriverSettings driver_settings_of(const store::SettingValues& values);
 
 /// The settings in force and the stored ones.
@@ -18,34 +18,50 @@ class SettingsManager {
   public:
     SettingsManager(ports::Storage& storage, const store::Area& area) : store_(storage, area) {}
 
-    /// For the start-up, before there is a Gateway: the stored settings, or `initial` if there are none.
+    /// For the start-up, before the Gateway exists: takes the stored settings, or `initial` if there are
+    /// none.
     void start(const store::SettingValues& initial);
-    /// After it: a setting that the board's wiring decides, whatever is stored. Needs an allowed value.
+    /// After start(): sets a setting that the board's wiring determines, whatever is stored. Needs an allowed
+    /// value.
     void impose(store::Setting setting, std::uint32_t value);
-    /// Whom settings written from now on are for; it has the present ones already.
+    /// The gateway that later changes are applied to; it already has the present settings.
     void attach(Gateway& gateway);
 
     const store::SettingValues& values() const { return values_; }
     std::uint32_t get(store::Setting setting) const { return values_.get(setting); }
-    /// As it was at the start: for addresses and the lines' settings, which take hold at a reset.
+    /// The value at the start: for addresses and line settings, which take effect at a reset.
     std::uint32_t at_start(store::Setting setting) const { return at_start_.get(setting); }
-    /// All below need attach(). Only while stopped; not 255 or the motor's address for the gateway.
+    /// All functions below need attach(). Only while stopped; the gateway's address must not be 255 or the
+    /// motor's.
     Result set(std::uint8_t id, std::uint32_t value);
 
-    /// Of the same values that are being stored it is the same saving: who did not wait for its end asks
-    /// again.
+    /// Does nothing if the same values are already being saved, so a client that stopped waiting may repeat
+    /// it.
     void begin_save();
-    /// Without a result until the storage has taken or refused them, however slow it is.
+    /// Empty until the storage has accepted or refused the values, however slow it is.
     Progress poll_save() const;
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
+    /// For boards that keep with the settings that somebody has commanded run; after attach(), before a table
+    /// is loaded. Without it the gateway waits for run(); after a crash it is taken back, in the store too.
+    void keep_mark(bool is_after_crash);
+    /// On such a board: somebody commands run. Settings that were not kept are not kept by it.
+    void begin_mark();
+
     bool differ() const { return values_ != stored_; }
     bool were_damaged() const { return damaged_; }
 
   private:
+    void begin_saving();
+    void store_wait(SafeReason reason);
+    SafeReason stored_wait() const {
+        return static_cast<SafeReason>(stored_.get(store::Setting::waits_for_run));
+    }
+
     Gateway* gateway_ = nullptr;
     base::Status begun_;
     bool is_saving_ = false;
+    bool keeps_mark_ = false;
     bool damaged_ = false;
     store::SettingValues values_;
     store::SettingValues at_start_;

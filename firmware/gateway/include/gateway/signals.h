@@ -10,7 +10,7 @@
 
 namespace nplc::gateway {
 
-/// The board's inputs and outputs: inputs debounced, forced signals, outputs written when they change.
+/// The board's inputs and outputs: debounced inputs, forced signals, outputs written only when they change.
 class Signals {
   public:
     Signals(ports::DigitalInputs& inputs, ports::DigitalOutputs& outputs, base::Microseconds debounce)
@@ -27,7 +27,7 @@ class Signals {
     }
     std::uint8_t terminals() const { return debouncer_.levels(); }
     std::uint8_t inputs() const { return forces_.inputs().over(debouncer_.levels()); }
-    /// Never forced, and off within 9 ms whatever the debounce time.
+    /// Ignores forces; off within 9 ms whatever the debounce time.
     bool is_on(unsigned input) const {
         const unsigned both = unsigned{debouncer_.levels()} & quick_debouncer_.levels();
         return input < 6 && ((both >> input) & 1U) != 0;
@@ -57,7 +57,7 @@ class Signals {
     std::optional<std::uint8_t> written_;
     Forces forces_;
     Debouncer debouncer_;
-    Debouncer quick_debouncer_;  ///< for the enable input's loss
+    Debouncer quick_debouncer_;  ///< for the loss of the enable input
 };
 
 }  // namespace nplc::gateway

@@ -8,8 +8,9 @@
 
 namespace nplc::gateway {
 
-/// Asks the motor whether it stands still. R: V_IST is 0 and P_IST, read twice at least 50 ms apart, differs
-/// by one count at the most; V_IST alone counts whole counts a sample, over 7 rpm.
+/// Checks with the motor that it stands still. R: V_IST is 0 and P_IST, read twice at least 50 ms apart,
+/// differs by one count at the most; V_IST alone is in whole counts per sample, which misses speeds up to 7
+/// rpm.
 class Standstill {
   public:
     explicit Standstill(motor::Motor& motor) : motor_(motor) {}
@@ -17,7 +18,7 @@ class Standstill {
     void begin(base::Instant now);
     /// done, moving, or link_down (also without an answer).
     Progress poll(base::Instant now);
-    /// When it must be polled at the latest if the motor's driver has nothing new.
+    /// Latest time of the next poll if the motor's driver has nothing new.
     base::Instant next_poll(base::Instant now) const;
     void drop() { motor_.drop_access(); }
 

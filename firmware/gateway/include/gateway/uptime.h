@@ -6,7 +6,7 @@
 
 namespace nplc::gateway {
 
-/// Whole milliseconds since the first call, counted up so that no 64-bit division is needed.
+/// Whole milliseconds since the first call, counted without 64-bit division.
 class Uptime {
   public:
     void advance(base::Instant now) {
@@ -22,7 +22,7 @@ class Uptime {
         milliseconds_ += passed;
     }
     std::uint32_t milliseconds() const { return milliseconds_; }
-    /// When milliseconds() will be `more` than now.
+    /// The time at which milliseconds() will have grown by `more`.
     base::Instant in(std::uint32_t more) const { return last_ + base::Milliseconds(more); }
 
   private:

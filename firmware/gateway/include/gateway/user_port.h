@@ -17,18 +17,18 @@
 namespace nplc::gateway {
 
 /// The user port: MacTalk (001 §5.1) for the gateway's own address (REGISTERS.md), and for the motor's
-/// and 255, which are answered as the motor would. One message at a time; a new one ends the wait for the
-/// answer to the one before. Refused messages get no answer.
+/// address and 255, which are answered as the motor would. One message at a time; a new one ends the wait for
+/// the answer to the one before. Refused messages get no answer.
 class UserPort {
   public:
-    /// Of a message to the motor: MODE_REG := 0, passive. While a sequence runs it is the command stop, too.
+    /// `request` is MODE_REG := 0 (passive) to the motor. While a sequence runs this is also a stop command.
     static constexpr bool is_stop(const protocol::mactalk::Request& request) {
         return request.kind == protocol::mactalk::Kind::write && request.reg == registers::MODE_REG &&
                request.length <= 4 && request.value == 0;
     }
 
-    /// `line`: null where messages come decoded, by submit(), or nobody is served. `motor_line`: the motor's
-    /// own MacTalk port if it is wired, for what FlexMAC cannot carry; or null.
+    /// `line`: null where messages come decoded through submit(), or there is no user port. `motor_line`: the
+    /// motor's own MacTalk port for messages that FlexMAC cannot carry; null if not wired.
     UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
              OwnRegisters& own, SettingsManager& settings)
         : line_(line),
@@ -39,28 +39,29 @@ class UserPort {
           bridge_(motor),
           modbus_(gateway, own) {}
 
-    /// After Gateway::poll and OwnRegisters::poll.
+    /// To be called after Gateway::poll and OwnRegisters::poll.
     void poll(base::Instant now);
-    /// When it must be polled at the latest if nothing arrives on either line.
+    /// Latest time of the next poll if nothing arrives on either line.
     base::Instant next_poll(base::Instant now);
 
-    /// Instead of a line's message: ends the wait for the answer to the one before. `data`: of
-    /// a write. Whether it may be is its listener's to judge, but for what a message on a line is asked too.
+    /// Takes a decoded message instead of one from the line; ends the wait for the answer to the one before.
+    /// `data`: of a write. The caller decides whether the message is allowed, except for the checks made for
+    /// a message on a line.
     void submit(const protocol::mactalk::Request& request, std::span<const std::uint8_t> data,
                 base::Instant now);
-    /// In the place of poll(), which does nothing without a line.
+    /// Replaces poll(), which does nothing without a line.
     void serve(base::Instant now) { go_on(now); }
-    /// After that: what is answered to it since the last call, encoded. One that is not served any more and
-    /// has not been answered was refused.
+    /// After serve(): the encoded answer since the last call. A message that is no longer served and has no
+    /// answer was refused.
     std::span<const std::uint8_t> take_reply();
     bool is_serving() const { return serving_ != Serving::nothing; }
 
-    /// For who else asks the gateway and the motor: what a client waits for here, and whether the gateway
+    /// For other users of the gateway and the motor: what a client waits for here, and whether the gateway
     /// would carry a message to the motor now.
     bool awaits_own_write() const { return serving_ == Serving::own_write; }
     bool awaits_motor() const { return serving_ == Serving::motor; }
     bool motor_allows(const protocol::mactalk::Request& request) const;
-    /// A stop from elsewhere comes before it.
+    /// For a stop from another port, which takes precedence.
     void cancel_own_write();
 
   private:
@@ -89,20 +90,20 @@ class UserPort {
     OwnRegisters& own_;
     SettingsManager& settings_;
 
-    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
+    // Small members first: see Gateway.
     Serving serving_ = Serving::nothing;
-    bool is_modbus_ = false;  ///< what is being served
+    bool is_modbus_ = false;  ///< the message being served is Modbus
     MotorBridge bridge_;
     std::size_t sent_ = 0;
     std::size_t passed_sent_ = 0;
     std::size_t data_size_ = 0;
     base::Instant begun_{};
     [[no_unique_address]] SetPointsPart::Writer set_points_;
-    [[no_unique_address]] ModbusPart modbus_;  ///< where the firmware has it
+    [[no_unique_address]] ModbusPart modbus_;  ///< if the firmware supports it
     protocol::mactalk::RequestDecoder decoder_;
     protocol::mactalk::EncodedReply out_;
     std::array<std::uint8_t, protocol::mactalk::kBareRequestBytes> passed_;
-    /// Of a write that is not done yet; the decoder may be receiving already.
+    /// The data of a write in progress; the decoder may already receive the next message.
     std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_;
 };
 

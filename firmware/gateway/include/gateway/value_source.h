@@ -11,13 +11,13 @@
 
 namespace nplc::gateway {
 
-/// Values of the table that may change between two scans.
+/// Source of table values that may change between two scans.
 class ValueSource {
   public:
-    /// Something has changed that `step` takes.
+    /// There is a change that `step` takes.
     virtual bool has_change(std::uint8_t step) const = 0;
-    /// All of it takes hold with the first call; then what is to be written to the motor before the next
-    /// scan, one after the other. Nothing: that was all.
+    /// The first call puts all changes into force; each call returns the next order to write to the motor
+    /// before the next scan. Empty: no more.
     virtual std::optional<sequencer::MotorOrder> take(std::uint8_t step) = 0;
 
   protected:

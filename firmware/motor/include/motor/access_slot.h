@@ -4,7 +4,7 @@
 
 namespace nplc::motor {
 
-/// The one access that a driver takes at a time (Motor::begin_access), and how many there were.
+/// The one access that a driver handles at a time (Motor::begin_access), and the access counters.
 class AccessSlot {
   public:
     AccessState state() const { return state_; }
@@ -14,7 +14,7 @@ class AccessSlot {
     const Access& access() const { return access_; }
     std::uint32_t value() const { return value_; }
 
-    /// False while there is one.
+    /// False while another access is open.
     bool begin(const Access& access) {
         if (is_open()) return false;
         access_ = access;

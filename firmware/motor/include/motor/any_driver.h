@@ -5,7 +5,7 @@
 
 namespace nplc::motor {
 
-/// The driver of whatever drive there is, among all families of this program.
+/// A driver of any drive family in this program.
 using AnyDriver = DriverPlace<NPLC_FAMILY_DRIVERS>;
 
 }  // namespace nplc::motor

@@ -10,13 +10,13 @@
 
 namespace nplc::motor {
 
-/// The line to a drive: one of these.
+/// The line to a drive: exactly one of these is set.
 struct DriverPorts {
     ports::SerialPort* serial = nullptr;
     ports::CanPort* can = nullptr;
 };
 
-/// What the settings say of a drive and its line. Each family takes what it has a use for.
+/// Settings of a drive and its line. Each family uses those that apply to it.
 struct DriverSettings {
     std::uint32_t baud = 19'200;
     base::Milliseconds silence{20};
@@ -27,7 +27,7 @@ struct DriverSettings {
     bool old_register_codes = false;
 };
 
-/// A place for the driver of a drive of any of these families. Such a `Driver` has
+/// Storage for the driver of one of several drive families. Such a `Driver` has
 ///   static constexpr bool drives(const DriverPorts&, std::uint8_t motor_kind);
 ///   Driver(const DriverPorts&, const DriverSettings&);
 ///   a member `motor`, its Motor, which has base::Instant next_poll(base::Instant now) const.
@@ -38,14 +38,14 @@ class DriverPlace {
     DriverPlace(const DriverPlace&) = delete;
     DriverPlace& operator=(const DriverPlace&) = delete;
 
-    /// A new driver, as after a power-up, for the drive that `motor_kind` names on the line that there is;
-    /// the first where none says so. The one before is gone.
+    /// Constructs a new driver, as after a power-up, for the drive that `motor_kind` names on the given line;
+    /// the first family's if no family matches. Destroys the previous driver.
     Motor& start(const DriverPorts& ports, const DriverSettings& settings) {
         return start_one<Others..., First>(ports, settings);
     }
 
-    /// When to poll the driver at the latest, asked after each poll() and each call that gives it something
-    /// to do; `now` or earlier: at once. Not with no driver.
+    /// Latest time of the next poll, to be asked after each poll() and each call that gives the driver work;
+    /// `now` or earlier: at once. Needs a driver.
     base::Instant next_poll(base::Instant now) const {
         return std::visit(
             [now](const auto& driver) {
@@ -57,7 +57,7 @@ class DriverPlace {
             driver_);
     }
 
-    /// Null: the drive is led by another kind of Motor.
+    /// Null if the present driver is of another kind.
     template <typename Wanted>
     const Wanted* get() const {
         return std::visit(

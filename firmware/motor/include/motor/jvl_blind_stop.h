@@ -3,39 +3,39 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "motor/stop_pace.h"
 #include "protocol/flexmac.h"
 
 namespace nplc::motor {
 
 /// A stop for a motor from which nothing is heard (001 §5.2): 7Fh and FFh twice each bring it into FlexMAC
 /// whatever its toggle, MODE_REG := 0 twice, 7Eh three times bring it back. A pause of two characters before
-/// each part ends what the motor may have taken for the beginning of another message. Sent every 50 ms for
-/// 1 s, then every 500 ms. Never before the link has been declared lost: a motor in step would be put out of
-/// it.
+/// each part ends what the motor may have taken for the beginning of another message. Never before the link
+/// has been declared lost: a motor in step would be put out of it.
 class BlindStop {
   public:
-    /// The first one not before then.
+    /// The first one is sent at `from` at the earliest.
     void allow(base::Instant from) {
         if (!allowed_) due_ = from;
         allowed_ = true;
     }
     bool is_allowed() const { return allowed_; }
     /// A new stop was asked for: the quick repetition begins again.
-    void begin_anew() { count_ = 0; }
+    void begin_anew() { pace_.begin_anew(); }
 
-    /// Some parts have been sent, others have not.
+    /// A sequence of parts has been started and not finished.
     bool is_under_way() const { return part_ != 0; }
     bool is_due(base::Instant now) const { return allowed_ && now >= due_; }
     base::Instant due() const { return due_; }
 
-    /// The next part, to be sent when the one before has left; empty when that was the last one. `longword`:
-    /// MODE_REG has 32 bits.
+    /// The next part, to be sent when the one before has left the transmitter; empty after the last one.
+    /// `longword`: MODE_REG has 32 bits.
     protocol::flexmac::Encoded take_part(bool longword, base::Instant now);
 
   private:
     bool allowed_ = false;
-    std::uint8_t part_ = 0;   ///< that is to be sent next
-    std::uint8_t count_ = 0;  ///< how often it was sent since the stop was asked for
+    std::uint8_t part_ = 0;  ///< that is to be sent next
+    StopPace pace_;
     base::Instant due_{};
 };
 

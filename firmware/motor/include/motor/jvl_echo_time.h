@@ -6,27 +6,27 @@
 
 #include "base/time.h"
 
-/// Lines may bring characters late, as a USB adapter does. A microcontroller's own UART does not, and its
-/// image is built without.
+/// Lines may delay characters, as a USB adapter does. A microcontroller's own UART does not, and its image is
+/// built without this.
 #ifndef NPLC_LATE_LINES
 #define NPLC_LATE_LINES 1
 #endif
 
 namespace nplc::motor {
 
-/// How late a line brings echoes, beyond the characters' own time: the worst of late, follows a rise at once
-/// and a fall slowly.
+/// Estimate of the line's echo delay beyond the characters' own time: follows an increase at once and a
+/// decrease slowly.
 class MeasuredEchoTime {
   public:
-    static constexpr base::Microseconds kMost{40'000};  ///< a later line is not used
+    static constexpr base::Microseconds kMost{40'000};  ///< a line with a longer delay is not used
     static constexpr base::Microseconds kPatience{
-        60'000};  ///< where nothing is known, or nothing may be wrong
+        60'000};  ///< without an estimate, or where an early repeat does harm
 
-    /// The echo of a message that was sent once. That of a repeated one tells nothing (Karn).
+    /// The echo of a message that was sent once. That of a repeated message is ambiguous and not used (Karn).
     void learn(base::Microseconds late);
-    /// A message is repeated: it was lost, or the line has become later.
+    /// A message is repeated: it was lost, or the delay has increased.
     void doubt();
-    /// Between two characters of a motor that never pauses.
+    /// Pause between two status characters of a motor that sends without pauses.
     void pause(base::Microseconds time);
     void forget() {
         is_known_ = false;
@@ -36,14 +36,16 @@ class MeasuredEchoTime {
     bool is_known() const { return is_known_; }
     bool was_known() const { return is_known_ || late_ != 0; }
     bool is_too_late() const { return is_known_ && measured() > kMost; }
-    /// The last that was known.
+    /// The last known estimate.
     base::Microseconds measured() const { return base::Microseconds(late_); }
+    /// By that: no line that is up has been.
+    bool was_too_late() const { return measured() > kMost; }
     base::Microseconds at_most() const { return is_known_ ? measured() : kMost; }
-    /// How long an echo is waited for where a repeat does no harm.
+    /// Echo timeout where a repeat does no harm.
     base::Microseconds patience() const {
         return is_known_ ? base::Microseconds(std::max(wait_, late_)) : kPatience;
     }
-    /// How long where a repeat would act twice, or is the last: `least`, and what is measured.
+    /// Echo timeout where a repeat would act twice or is the last: `least` plus the estimate.
     base::Microseconds proof(base::Microseconds least, bool is_last) const {
         return is_known_ && !is_last ? least + measured() : std::max(least, kPatience);
     }
@@ -55,7 +57,7 @@ class MeasuredEchoTime {
     std::uint32_t pause_ = 0;
 };
 
-/// That of a line that holds nothing back.
+/// For a line without delay.
 class NoEchoTime {
   public:
     static constexpr base::Microseconds kMost{0};
@@ -69,6 +71,7 @@ class NoEchoTime {
     bool is_known() const { return true; }
     bool was_known() const { return false; }
     bool is_too_late() const { return false; }
+    bool was_too_late() const { return false; }
     base::Microseconds measured() const { return {}; }
     base::Microseconds at_most() const { return {}; }
     base::Microseconds patience() const { return {}; }

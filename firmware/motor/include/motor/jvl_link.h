@@ -13,15 +13,15 @@
 
 namespace nplc::motor {
 
-/// One message at a time to a JVL motor, until the motor's status bytes show that it was taken (001 §5.2). It
-/// sends a message again only on proof that the motor did not take it.
+/// One message at a time to a JVL motor, until the motor's status bytes show that it was accepted (001 §5.2).
+/// A message is sent again only on proof that the motor did not accept it.
 class JvlLink {
   public:
     struct Settings {
         std::uint32_t baud = 19'200;
-        base::Microseconds silence{
-            20'000};  ///< no status byte, or nobody who listened, for this long and the echo's delay: lost
-        /// A FlexMAC message or a change of protocol, which would act twice, waits this long for an echo
+        base::Microseconds silence{20'000};  ///< without a status byte, or without a poll, for this time and
+                                             ///< the echo delay: link lost
+        /// Timeout for the echo of a FlexMAC message or a protocol change, which would act twice if repeated,
         /// beyond the measured echo time; EchoTime::kPatience at the least where none is measured.
         base::Microseconds proof_time{20'000};
     };
@@ -29,7 +29,7 @@ class JvlLink {
     enum class Result : std::uint8_t {
         none,
         accepted,
-        refused,  ///< not taken after all resends, or longest_message passed, or taken too late
+        refused,  ///< not accepted after all resends, or longest_message passed, or accepted too late
         silent,
         out_of_step,  ///< the motor's toggle or protocol is not what the last message left
     };
@@ -37,57 +37,60 @@ class JvlLink {
     JvlLink(ports::SerialPort& port, const Settings& settings);
 
     Result poll(base::Instant now);
-    /// When poll() must be called at the latest if nothing arrives.
+    /// Latest time of the next poll() if nothing arrives.
     base::Instant next_poll(base::Instant now) const;
 
     bool busy() const { return expect_ != Expect::nothing; }
-    /// The last message, if there was one, has left the transmitter.
+    /// The last message, if any, has left the transmitter.
     bool has_left() const { return size_ == 0 || on_the_line_; }
-    /// When it had.
+    /// The time when it had left.
     base::Instant left_at() const { return left_at_; }
     base::Microseconds silence() const { return settings_.silence; }
     /// `copies`: 2 for safe communication.
     void send_command(std::uint8_t command, int copies, base::Instant now);
     void send_flexmac(const protocol::flexmac::Message& message, base::Instant now);
-    /// Accepted as every message; the answer may come before or after that, see take_reply().
+    /// Accepted like every message; the answer may come before or after that, see take_reply().
     void send_read(const protocol::flexmac::Message& request, base::Instant now);
-    /// The answer to the last send_read(), once.
+    /// The answer to the last send_read(); returned once.
     std::optional<std::uint32_t> take_reply();
-    /// 7Eh three times; done when status bit 3 is clear, with the toggle read anew.
+    /// 7Eh three times; done when status bit 3 is clear; the toggle is then read again.
     void leave_flexmac(base::Instant now);
-    /// Bytes without any expectation.
+    /// Sends bytes without expecting an answer.
     void send_blind(std::span<const std::uint8_t> bytes, base::Instant now);
 
-    /// Takes the motor's toggle and protocol as they are now; needs known().
+    /// Takes over the motor's present toggle and protocol; needs known().
     void synchronize();
-    /// Drops the message under way and all belief; the next two equal status bytes begin anew.
+    /// Drops the message in progress and all link state; the next two equal status bytes start again.
     void forget(base::Instant now);
 
     bool known() const { return filter_.known(); }
     const protocol::fastmac::Status& status() const { return filter_.status(); }
     bool toggle() const { return toggle_; }
     bool flexmac() const { return flexmac_; }
-    /// How often two equal status bytes in a row were heard.
+    /// Number of pairs of equal status bytes received.
     std::uint32_t confirmed() const { return filter_.confirmed(); }
     std::uint32_t resent() const { return resent_; }
-    /// From the end of a message to the second byte of its echo, the worst of late; 0: not measured yet.
+    /// From the end of a message to the second byte of its echo, slowly decreasing maximum; 0: not measured
+    /// yet.
     base::Microseconds echo_time() const {
         return echo_.was_known() ? echo_.measured() + kEchoCharacters * character_ : base::Microseconds(0);
     }
     base::Microseconds late_by() const { return echo_.at_most(); }
+    /// It was given up because its echoes came later than EchoTime::kMost.
+    bool was_too_late() const { return echo_.was_too_late(); }
     base::Microseconds character() const { return character_; }
     bool framing_error_seen() const { return framing_seen_; }
     void clear_framing_error() { framing_seen_ = false; }
 
   private:
-    static constexpr int kEchoCharacters = 3;  ///< the one under way, and two equal ones
+    static constexpr int kEchoCharacters = 3;  ///< the one being sent, and two equal ones
 
     enum class Expect : std::uint8_t { nothing, toggle, enter_flexmac, leave_flexmac };
 
     struct Listening {
         base::Instant polled{};
-        base::Microseconds heard{};  ///< on the line since the poll before: characters read now
-        bool too_late = false;       ///< nobody listened for longer than longest_silence()
+        base::Microseconds heard{};  ///< line time of the characters read in this poll
+        bool too_late = false;       ///< no poll for longer than longest_silence()
     };
 
     void start(std::span<const std::uint8_t> bytes, Expect expect, base::Instant now);
@@ -114,10 +117,10 @@ class JvlLink {
     std::uint8_t resends_ = 0;
     Expect expect_ = Expect::nothing;
     bool on_the_line_ = false;        ///< the last byte has left
-    std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not taken
+    std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not accepted
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
-    bool reads_ = false;  ///< an answer to request_ is still to come
+    bool reads_ = false;  ///< the answer to request_ is pending
     bool synchronized_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;
@@ -127,8 +130,8 @@ class JvlLink {
     protocol::flexmac::Message request_;
     std::optional<std::uint32_t> reply_;
     base::Instant next_byte_{};
-    base::Instant line_free_{};  ///< not before that, whatever the port says of its transmitter
-    base::Instant left_at_{};    ///< when the last byte had left
+    base::Instant line_free_{};  ///< earliest end of transmission, whatever the port reports
+    base::Instant left_at_{};    ///< when the last byte had left the transmitter
     base::Instant started_{};
     base::Instant last_status_{};
     Listening listening_;

@@ -12,13 +12,13 @@
 namespace nplc::motor {
 
 /// A JVL MAC motor on its FastMAC/FlexMAC port (001 §5.2). Keeps the motor in FastMAC between orders;
-/// switches to FlexMAC for register writes. See this folder's README for the rules.
+/// switches to FlexMAC for register writes. The rules are in this folder's README.
 class JvlMotor final : public Motor {
   public:
     struct Settings {
         JvlLink::Settings link{};
         bool safe_communication = true;  ///< 0Bh at start; one-byte commands have no other protection
-        /// `older_example`: as the example of 001 §5.2.1.5 was written.
+        /// `older_example`: the coding in the example of 001 §5.2.1.5.
         protocol::fastmac::RegisterCode register_code = protocol::fastmac::RegisterCode::format_list;
         bool registers_are_32_bit = false;        ///< MAC800
         base::Microseconds sample_period{1'920};  ///< of the motor's outer loop; MAC800: 1'299
@@ -28,8 +28,8 @@ class JvlMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override;
-    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now`
-    /// or earlier: at once.
+    /// Latest time of the next poll, to be asked after each poll() and each call that gives the driver work;
+    /// `now` or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
@@ -49,6 +49,8 @@ class JvlMotor final : public Motor {
     Counters counters() const override;
     bool longwords_only() const override { return registers_are_32_bit_; }
     base::Microseconds echo_time() const override { return link_.echo_time(); }
+    /// The last link was lost because its echoes came too late.
+    bool was_too_late() const { return link_.was_too_late(); }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
@@ -74,24 +76,25 @@ class JvlMotor final : public Motor {
     void hold_in_position();
     void update_hold();
 
-    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
+    // Small members first: a 16-bit Thumb load or store reaches only the first 32 to 128 bytes of an object.
     Sending sending_ = Sending::nothing;
     Phase phase_ = Phase::down;
     bool safe_communication_;
     bool registers_are_32_bit_;
     protocol::fastmac::RegisterCode register_code_;
-    bool safe_now_ = false;  ///< the motor wants two equal bytes
+    bool safe_now_ = false;  ///< the motor expects every byte twice
     bool slowed_ = false;    ///< 13h has been sent
     bool stop_wanted_ = false;
     bool link_error_ = false;
     bool was_up_ = false;
-    bool is_aside_ = false;  ///< what is under way is no order: an access, its way there and back, a NOP
-    bool holds_ = false;     ///< IN_POS reads 0 until the motor has worked it out anew
+    bool is_aside_ =
+        false;  ///< the message in progress is not an order: an access, its protocol changes, or a NOP
+    bool holds_ = false;  ///< IN_POS reads 0 until the motor has updated it
     JvlLink link_;
     BlindStop blind_stop_;
     AccessSlot access_;
-    std::uint32_t hold_bytes_;     ///< as many as the motor sends in two samples, and the pair after them
-    std::uint32_t held_from_ = 0;  ///< the link's confirmed() then
+    std::uint32_t hold_bytes_;     ///< as many as the motor sends in two samples, plus one pair
+    std::uint32_t held_from_ = 0;  ///< link_.confirmed() when the hold began
     std::uint32_t losses_ = 0;
     base::Instant next_blind_{};
     std::optional<base::Instant> reply_until_;

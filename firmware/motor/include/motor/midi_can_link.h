@@ -9,15 +9,16 @@
 
 namespace nplc::motor {
 
-/// A MIDI module on a CAN bus (003 §V). A frame that the port has no room for is offered again until an
-/// answer would be due. A controller that is off the bus is restarted, once in 100 ms.
+/// A MIDI module on a CAN bus (003 §V). A frame that does not fit into the port is offered again until the
+/// answer timeout. A bus-off controller is restarted, once in 100 ms.
 class MidiCanLink final : public MidiLink {
   public:
     struct Settings {
         std::uint8_t address = 1;  ///< 1..127
     };
 
-    /// Sets the port's filters to the module's answers and boot-up, and to what other masters ask it.
+    /// Sets the port's filters to the module's answers and boot-up messages, and to other masters' requests
+    /// to it.
     MidiCanLink(ports::CanPort& port, const Settings& settings);
 
     void begin(const MidiMessage& message, base::Instant now) override;
@@ -40,7 +41,7 @@ class MidiCanLink final : public MidiLink {
     bool busy_ = false;
     bool written_ = false;
     bool booted_ = false;
-    bool cut_ = false;  ///< the port is down or off the bus, as last seen
+    bool cut_ = false;  ///< the port is down or bus-off, as last seen
     protocol::AnswerCount answers_;
     base::Instant deadline_{};
     base::Instant may_restart_{};

@@ -8,7 +8,7 @@
 
 namespace nplc::motor {
 
-/// A MIDI module as it last told of itself: its parameters, its status and where its shaft is.
+/// The last reported state of a MIDI module: its parameters, status and shaft position.
 class MidiDrive {
   public:
     using Model = registers::midi::Model;
@@ -17,7 +17,7 @@ class MidiDrive {
 
     /// The answer to a query.
     void take_answer(std::uint8_t query, std::uint32_t value, base::Instant now);
-    // Commands that it has carried out.
+    // After commands that the module has carried out.
     void set_torque(std::uint32_t torque) { torque_ = static_cast<std::uint8_t>(torque); }
     void set_tolerance(std::uint32_t tolerance) { tolerance_ = static_cast<std::uint8_t>(tolerance); }
     void set_period(std::uint32_t period) { period_ = static_cast<std::uint16_t>(period); }
@@ -29,7 +29,7 @@ class MidiDrive {
     bool trips() const { return (status_ & registers::midi::kTrips) != 0; }
     bool at_end_stop() const;
     bool is_busy() const { return !not_busy_; }
-    /// The reference input was seen active in the last eight measures.
+    /// The reference input was active in at least one of the last eight measures.
     bool was_referenced() const { return referenced_ != 0; }
 
     std::int32_t position() const { return position_; }  ///< increments
@@ -38,7 +38,7 @@ class MidiDrive {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(position_) -
                                          static_cast<std::uint32_t>(position_before_));
     }
-    std::int32_t counts() const;  ///< of a JVL motor
+    std::int32_t counts() const;  ///< in counts of a JVL motor
     /// Counts a sample of a JVL motor, from the last two positions if they are close enough.
     std::int32_t speed() const;
 
@@ -52,7 +52,8 @@ class MidiDrive {
   private:
     Model model_;
     bool not_busy_ = false;
-    std::uint8_t referenced_ = 0;  ///< the reference input in the last eight measures, the latest in bit 0
+    std::uint8_t referenced_ =
+        0;  ///< history of the reference input over the last eight measures, the latest in bit 0
     std::uint8_t most_torque_ = registers::midi::kMostTorque;  ///< Imax
     std::uint8_t unstall_ = 0;
     std::uint8_t ramp_ = 0;
@@ -63,7 +64,7 @@ class MidiDrive {
     std::int32_t position_ = 0;
     std::int32_t position_before_ = 0;
     base::Instant position_at_{};
-    base::Microseconds position_step_{};  ///< between the last two positions
+    base::Microseconds position_step_{};  ///< time between the last two positions
 };
 
 }  // namespace nplc::motor

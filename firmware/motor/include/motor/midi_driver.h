@@ -6,7 +6,7 @@
 
 namespace nplc::motor::midi {
 
-/// Setting motor_kind: 0 is a JVL motor, then come the models.
+/// Setting motor_kind: 0 is a JVL motor, 1 to 3 are the MIDI models.
 constexpr bool is_kind(std::uint8_t motor_kind) {
     return motor_kind >= 1 && motor_kind <= 3;
 }
@@ -14,7 +14,7 @@ constexpr MidiMotor::Settings settings_of(const DriverSettings& settings) {
     return {.model = static_cast<MidiMotor::Model>(settings.motor_kind - 1)};
 }
 
-/// A MIDI drive on V24. On CAN: motor/midi_can_driver.h, which boards without a bus do not have.
+/// A MIDI drive on V24. On CAN: motor/midi_can_driver.h, which boards without a CAN bus do not have.
 struct Driver {
     static constexpr bool drives(const DriverPorts& ports, std::uint8_t motor_kind) {
         return ports.serial != nullptr && is_kind(motor_kind);

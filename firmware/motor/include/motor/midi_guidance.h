@@ -11,8 +11,8 @@
 
 namespace nplc::motor {
 
-/// Leads a MIDI drive to what the registers say, one command at a time (MIDI.md in this folder). It works the
-/// commands out and changes nothing.
+/// Determines the next command that brings a MIDI drive to the state in the registers, one command at a time
+/// (MIDI.md in this folder). Does not send it and changes no state of the drive.
 class MidiGuidance {
   public:
     using Message = std::optional<MidiMessage>;
@@ -21,13 +21,14 @@ class MidiGuidance {
     MidiGuidance(const MidiRegisters& registers, const MidiDrive& drive, const MidiMotion& motion)
         : registers_(registers), drive_(drive), motion_(motion) {}
 
-    /// TORQUE or TOLERANCE, if the drive has another.
+    /// TORQUE or TOLERANCE, if the drive's value differs.
     Message next_parameter() const;
-    /// In velocity mode (MODE_REG 1) and position mode (2). Nothing while that has to wait for standstill, or
-    /// the drive does what is wanted, or no drive can: then limitation() says why.
+    /// For velocity mode (MODE_REG 1) and position mode (2). Empty while the command must wait for
+    /// standstill, or the drive already does what is wanted, or no drive can do it: then limitation() has the
+    /// reason.
     Message next_motion();
     Limitation limitation() const { return limitation_; }
-    /// P_SOLL in increments; nothing if it is beyond what a drive can count.
+    /// P_SOLL in increments; empty if it is beyond a drive's range.
     std::optional<std::int32_t> target() const;
 
   private:

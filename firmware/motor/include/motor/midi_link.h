@@ -6,7 +6,7 @@
 
 namespace nplc::motor {
 
-/// From a request's last character, or its frame, on. R: in no manual.
+/// Answer timeout, from a request's last character or its frame. R: in no manual.
 inline constexpr base::Microseconds kLongestAnswer{100'000};
 
 /// One command or query to a MIDI module; numbers as in registers/midi.h.
@@ -18,42 +18,43 @@ struct MidiMessage {
     bool operator==(const MidiMessage&) const = default;
 };
 
-/// How a message ended.
+/// The outcome of a message.
 struct MidiOutcome {
     enum class Kind : std::uint8_t {
-        none,       ///< nothing has ended
+        none,       ///< no message has ended
         accepted,   ///< the command was carried out
         value,      ///< the query was answered
         refused,    ///< understood and not carried out
-        not_taken,  ///< it never reached the module, or was damaged on the way: not carried out
-        unclear,    ///< silence or a damaged answer: a command may have been carried out or not
+        not_taken,  ///< it did not reach the module, or was damaged on the way: not carried out
+        unclear,    ///< no answer or a damaged one: a command may have been carried out or not
     };
     Kind kind = Kind::none;
     std::uint32_t value = 0;
-    bool damaged = false;  ///< `unclear`, and something was heard
+    bool damaged = false;  ///< `unclear`, and something was received
 };
 
-/// What keeps a line from being used, whatever messages are under way.
+/// Faults of the line, independent of the message in progress.
 enum class MidiTrouble : std::uint8_t {
     none,
-    no_bus,   ///< the CAN controller is down or off the bus
+    no_bus,   ///< the CAN controller is down or bus-off
     several,  ///< more than one module answers to the address; until two requests have been answered once
+              ///< each
 };
 
-/// One message at a time to one module. Nothing is sent twice here: whether a repeat is harmless is for the
-/// driver to say. Every message ends in bounded time.
+/// One message at a time to one module. Nothing is repeated here: the driver decides whether a repeat is
+/// harmless. Every message ends in bounded time.
 class MidiLink {
   public:
-    /// Needs !busy().
+    /// Of a message under way nothing is told any more.
     virtual void begin(const MidiMessage& message, base::Instant now) = 0;
-    /// Moves bytes or frames on; an outcome once for each message.
+    /// Sends and receives; returns an outcome once per message.
     virtual MidiOutcome poll(base::Instant now) = 0;
     virtual base::Instant next_poll(base::Instant now) const = 0;
     virtual bool busy() const = 0;
-    /// The module has said that it started anew; once for each time. Only on CAN.
+    /// The module has reported a restart; true once per restart. Only on CAN.
     virtual bool take_boot() = 0;
     virtual MidiTrouble trouble() const = 0;
-    /// Drops a message of which nothing has left yet, without an outcome.
+    /// Drops a message that has not begun to be sent, without an outcome.
     virtual void withdraw() = 0;
 
   protected:

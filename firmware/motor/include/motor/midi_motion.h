@@ -7,8 +7,8 @@
 
 namespace nplc::motor {
 
-/// Follows what the shaft of a MIDI drive does. No query tells that it moves: it stands where two positions
-/// are equal for long enough. The rules: MIDI.md in this folder.
+/// Tracks the motion of a MIDI drive's shaft. No query reports motion directly: the shaft is at standstill
+/// when two positions are equal for long enough. The rules: MIDI.md in this folder.
 class MidiMotion {
   public:
     enum class State : std::uint8_t {
@@ -18,59 +18,60 @@ class MidiMotion {
         running,
         stopping,
     };
-    /// What a position tells that somebody has to act on.
+    /// A result of a position query that needs a reaction.
     enum class Event : std::uint8_t {
         none,
-        jumped,       ///< the motion does not explain the position
-        not_taken,    ///< the command that nobody answered was not carried out
+        jumped,       ///< the position does not fit the motion
+        not_taken,    ///< the unanswered command was not carried out
         end_stop,     ///< an end-stop has ended the motion
-        not_arrived,  ///< it stands elsewhere than at goal()
+        not_arrived,  ///< standstill at another position than goal()
     };
 
     State state() const { return state_; }
     bool at_rest() const { return state_ == State::at_rest; }
     bool moves() const { return state_ == State::going || state_ == State::running; }
-    /// Although nobody here knows why.
+    /// The shaft moves for an unknown reason.
     bool is_stray() const { return state_ == State::unknown && seen_moving_; }
     /// The module's position loop holds `goal`.
     bool holds(std::int32_t goal) const { return goal_holds_ && goal_ == goal; }
     bool has_arrived_at(std::int32_t goal) const { return at_rest() && arrived_ && holds(goal); }
     bool at_speed() const { return state_ == State::running && at_speed_; }
-    /// Of a run.
+    /// For a run.
     std::uint16_t period() const { return run_period_; }
     bool turns_left() const { return left_; }
-    /// Nobody knows yet whether the motion's command was carried out.
+    /// It is unknown whether the motion's command was carried out.
     bool is_doubtful() const { return doubtful_; }
     bool needs_position(const MidiDrive& drive) const;
-    /// A stop takes longer than it may.
+    /// The stop has exceeded its time limit.
     bool stops_late(base::Instant now) const { return state_ == State::stopping && now >= ramp_end_; }
     base::Instant ramp_end() const { return ramp_end_; }
 
-    // Commands that the module has carried out.
+    // After commands that the module has carried out.
     void begin_command() { steady_begun_ = measured_ = false; }
     void begin_move(std::int32_t goal);
-    /// `run`: as RUN has it, period and direction.
+    /// `run`: period and direction, coded as in RUN.
     void begin_run(std::uint32_t run, const MidiDrive& drive, base::Instant now);
     void begin_stop(const MidiDrive& drive, base::Instant now);
     void begin_origin() { goal_holds_ = arrived_ = watched_ = false; }
-    /// The command just begun may have been carried out or not.
+    /// It is unknown whether the command just begun was carried out.
     void doubt() { doubtful_ = true; }
 
-    /// A command was refused because the shaft moves: it is stopping then, and not late before `at_least`.
+    /// A command was refused because the shaft moves: waits for standstill, with a time limit not before
+    /// `at_least`.
     void wait_for_rest(base::Instant at_least);
-    /// The link begins anew: perhaps the shaft still does what it did before.
+    /// The link starts again: the shaft may still be doing what it did before.
     void restart();
     void forget();
     void forget_goal() { goal_holds_ = doubtful_ = false; }
     void drop_goal() { goal_holds_ = false; }
     void end_by_trip();
-    /// To the place where it is: whether it is there is found out anew.
+    /// After a new order for the position already reached: checks again that the shaft is there.
     void check_again(std::int32_t goal);
-    /// The next position may be anywhere.
+    /// Suspends the jump check for the next position.
     void stop_watching() { watched_ = false; }
 
     void on_measures(const MidiDrive& drive, base::Instant now);
-    /// `asked_at`: when the position was asked for, us modulo 2^32.
+    /// `asked_at`: time of the position query, us modulo 2^32.
     Event on_position(const MidiDrive& drive, std::uint32_t asked_at, base::Instant now);
 
   private:
@@ -87,19 +88,19 @@ class MidiMotion {
     State state_ = State::unknown;
     bool goal_holds_ = false;
     bool doubtful_ = false;
-    bool measured_ = false;  ///< "not busy" is newer than the motion's command
+    bool measured_ = false;  ///< measures have been read since the motion's command
     bool arrived_ = false;
     bool steady_begun_ = false;
     bool seen_moving_ = false;
     bool at_speed_ = false;
-    bool watched_ = false;  ///< the last position is of this motion, at a speed that is known
+    bool watched_ = false;  ///< the last position belongs to this motion, and its speed is known
     bool left_ = false;
     std::uint16_t run_period_ = 0;
     std::int32_t goal_ = 0;
     std::int32_t steady_position_ = 0;
     std::uint32_t position_asked_at_ = 0;
     base::Instant steady_since_{};
-    base::Instant ramp_end_{};  ///< of a run, or the latest end of a stop
+    base::Instant ramp_end_{};  ///< end of a run's ramp, or the time limit of a stop
 };
 
 }  // namespace nplc::motor

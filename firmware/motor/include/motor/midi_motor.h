@@ -17,16 +17,16 @@
 
 namespace nplc::motor {
 
-/// Why a MidiMotor shows ERROR, for a user. A trip, and why no drive could do an order, are told by
-/// MidiMotor::drive_status() and limitation().
+/// Reason of a MidiMotor's ERROR, for the operator. A trip is detailed by MidiMotor::drive_status(), an order
+/// that no drive can do by limitation().
 using MidiFault = registers::gateway::DriveFault;
 
-/// What it is and what to do. Without a full stop.
+/// Text of the fault with the remedy, without a full stop.
 std::string_view text_of(MidiFault fault);
 
-/// A MAC23 or MAC34 of MIDI Ingenierie behind any of its lines. It keeps the registers that a sequence knows
-/// from a JVL motor, and leads the drive to what they say. The rules and the whole translation: MIDI.md in
-/// this folder.
+/// A MAC23 or MAC34 of MIDI Ingenierie on one of its lines. Keeps the registers that a sequence uses on a JVL
+/// motor, and brings the drive to the state in them. The rules and the whole translation: MIDI.md in this
+/// folder.
 class MidiMotor final : public Motor {
   public:
     using Model = registers::midi::Model;
@@ -38,8 +38,8 @@ class MidiMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override { work(now); }
-    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now`
-    /// or earlier: at once.
+    /// Latest time of the next poll, to be asked after each poll() and each call that gives the driver work;
+    /// `now` or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool can_execute(const Order& order) const override { return limitation_of(order) == Limitation::none; }
@@ -47,7 +47,10 @@ class MidiMotor final : public Motor {
     void send(const Order& order) override { orders_.push(order, session_.is_up()); }
     void stop() override;
     bool stop_confirmed() const override { return !stop_wanted_; }
-    void give_up_stop() override { stop_wanted_ = stop_hard_ = false; }
+    void give_up_stop() override {
+        stop_wanted_ = stop_hard_ = false;
+        if (kWholeMidiStop) retry_at_ = {};
+    }
     bool begin_access(const Access& access) override { return session_.is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }
@@ -62,23 +65,23 @@ class MidiMotor final : public Motor {
     using Limitation = registers::midi::Limitation;
     Limitation limitation_of(const Order& order) const;
 
-    /// The first reason for the present ERROR; stays until "reset error" (01h).
+    /// The first reason of the present ERROR; cleared by "reset error" (01h).
     MidiFault fault() const;
     Limitation limitation() const { return limitation_; }           ///< of a `bad_value`
     std::uint32_t drive_status() const { return drive_.status(); }  ///< GET_STATUS, as last heard
     const MidiDrive& drive() const { return drive_; }
     bool is_at_target() const { return registers_.mode() == 2 && in_position(); }
-    /// A mode that moves, and V_SOLL 0, which holds every move back.
+    /// The mode is a motion mode and V_SOLL is 0, which blocks every move.
     bool has_no_speed() const {
         return registers_.mode() != 0 && registers_.is_set(registers::V_SOLL) && registers_.v_soll() == 0;
     }
-    /// How the last message ended while the link was down.
+    /// The outcome of the last message while the link was down.
     const MidiOutcome& probe() const { return probe_; }
 
   private:
     using Message = std::optional<MidiMessage>;
 
-    // How messages end.
+    // Outcomes of messages.
     void lose_link(MidiFault why, base::Instant now);
     void look_for_trouble(base::Instant now);
     void on_outcome(const MidiOutcome& outcome, base::Instant now);
@@ -90,22 +93,23 @@ class MidiMotor final : public Motor {
     void on_unclear(base::Instant now);
     void on_refused(base::Instant now);
     void on_refused_motion(base::Instant now);
+    void pause_stop(base::Instant now);
     void forget_parameter();
     void begin_reset(base::Instant now);
     void raise(MidiFault fault, Limitation limitation = Limitation::none);
-    /// Whatever the module was told that waits is ended too.
+    /// Also ends a command that the module may have deferred.
     void raise_and_stop(MidiFault fault);
     void drop_orders();
 
-    // Which message is sent next.
+    // Selection of the next message.
     void work(base::Instant now);
     Message next_message(base::Instant now);
     Message next_query(base::Instant now);
     Message next_command(base::Instant now);
     Message next_access();
-    bool has_work() const;
+    bool has_work(base::Instant now) const;
 
-    // What an order does.
+    // Effects of an order.
     void execute(const Order& order);
     void write(const Order& order);
     void write_word(unsigned number, std::uint16_t value);
@@ -118,27 +122,28 @@ class MidiMotor final : public Motor {
 
     MidiLink& link_;
 
-    // What is used most stands in front, where a Cortex-M's short instructions reach it.
+    // Most used members first: a 16-bit Thumb load or store reaches only the first 32 to 128 bytes of an
+    // object.
     bool stop_wanted_ = false;
     bool stop_hard_ = false;  ///< EMERGENCY_STOP instead of STOP
     bool reset_wanted_ = false;
     bool zero_wanted_ = false;
-    bool zero_unclear_ = false;   ///< the next position tells
-    bool status_is_new_ = false;  ///< since the last command
-    bool access_error_ = false;   ///< ERROR was there before the write
-    std::uint8_t repeats_ = 0;    ///< of the command that is to be sent
-    std::uint8_t refusals_ = 0;   ///< of the motion that is to begin
+    bool zero_unclear_ = false;   ///< the next position decides
+    bool status_is_new_ = false;  ///< GET_STATUS was answered after the last command
+    bool access_error_ = false;   ///< ERROR was already set before the write
+    std::uint8_t repeats_ = 0;    ///< of the pending command
+    std::uint8_t refusals_ = 0;   ///< of the pending motion
     MidiFault fault_ = MidiFault::none;
     Limitation limitation_ = Limitation::none;
     MidiMotion motion_;
     MidiSession session_;
-    MidiMessage message_;         ///< under way while link_.busy()
-    std::uint32_t asked_at_ = 0;  ///< us, modulo 2^32: when it was sent
+    MidiMessage message_;         ///< in progress while link_.busy()
+    std::uint32_t asked_at_ = 0;  ///< time when it was sent, us modulo 2^32
     MidiDrive drive_;
     AccessSlot access_;
     std::uint32_t resent_ = 0;
     MidiOutcome probe_;
-    base::Instant retry_at_{};
+    base::Instant retry_at_{};  ///< of what was refused, and of a stop
     OrderQueue orders_;
     MidiRegisters registers_;
 };

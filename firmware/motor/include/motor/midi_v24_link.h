@@ -10,7 +10,8 @@
 namespace nplc::motor {
 
 /// A MIDI module on a serial line (000 §II to §IV). An answer that is damaged, or comes too late, makes the
-/// line fall silent for 5 ms before the next request, so that it is not taken for the answer to that one.
+/// line fall silent for 5 ms before the next request, so that it is not taken for the answer to that one;
+/// only EMERGENCY_STOP (18h) does not wait.
 class MidiV24Link final : public MidiLink {
   public:
     struct Settings {
@@ -42,6 +43,7 @@ class MidiV24Link final : public MidiLink {
     std::uint8_t address_;
     std::uint8_t sent_ = 0;
     State state_ = State::idle;
+    bool is_urgent_ = false;  ///< 18h, which waits for no silence
     bool noisy_ = false;      ///< something unexpected was heard, or may still come
     bool spoilt_ = false;     ///< a framing error since the request
     bool heard_any_ = false;  ///< since the request

@@ -5,8 +5,7 @@
 
 namespace nplc::motor {
 
-/// The orders that a driver was given: those that wait, the one that is being executed, and how many there
-/// were.
+/// A driver's orders: the queued ones, the one in execution, and the counters.
 class OrderQueue {
   public:
     bool empty() const { return waiting_.empty(); }
@@ -17,7 +16,7 @@ class OrderQueue {
         if (!delivers || !waiting_.push(order)) ++discarded_;
     }
 
-    /// The first one is being executed from here on. Needs !empty().
+    /// Moves the first order into execution. Needs !empty().
     const Order& begin() {
         current_ = waiting_.front();
         waiting_.pop();

@@ -6,7 +6,7 @@
 
 namespace nplc::motor {
 
-/// Takes a status byte as valid only when it comes twice in a row: one byte has no redundancy.
+/// Accepts a status byte only when it is received twice in a row: one byte has no redundancy.
 class StatusFilter {
   public:
     void receive(std::uint8_t byte) {
@@ -22,7 +22,7 @@ class StatusFilter {
     void forget() { known_ = has_previous_ = false; }
 
     bool known() const { return known_; }
-    std::uint32_t confirmed() const { return confirmed_; }               ///< pairs heard
+    std::uint32_t confirmed() const { return confirmed_; }               ///< pairs received
     const protocol::fastmac::Status& status() const { return status_; }  ///< needs known()
 
   private:

@@ -9,7 +9,7 @@
 
 namespace nplc::orders {
 
-/// A key whose orders are taken.
+/// A key whose orders are accepted.
 struct TrustedKey {
     std::string name;
     PublicKey key{};
@@ -25,7 +25,7 @@ struct SecretKey {
 };
 std::optional<SecretKey> read_secret(std::string_view text);
 
-/// What a key may be called: letters, digits, - and _, 32 at the most. Its files are NAME.pub and NAME.key.
+/// A valid key name: letters, digits, - and _, at most 32. Its files are NAME.pub and NAME.key.
 bool is_key_name(std::string_view name);
 
 struct TrustedKeys {
@@ -33,7 +33,8 @@ struct TrustedKeys {
     std::string error{};  ///< one line; then no key is trusted
     const TrustedKey* find(const PublicKey& key) const;
 };
-/// All files *.pub of a folder. One that is none is an error of all: nobody would know whose is missing.
+/// Reads all files *.pub of a folder. One invalid file is an error for all, since it is unknown whose key is
+/// missing.
 TrustedKeys read_trusted(const std::string& folder);
 
 }  // namespace nplc::orders

@@ -9,29 +9,29 @@
 
 namespace nplc::orders {
 
-/// Of an artifact; the last one has the rest.
+/// Size of a piece of an artifact; the last one has the rest.
 inline constexpr std::size_t kPieceBytes = 4096;
 constexpr std::size_t pieces_of(std::size_t bytes) {
     return (bytes + kPieceBytes - 1) / kPieceBytes;
 }
-/// Piece `number` of what is whole.
+/// Piece `number` of the whole artifact.
 std::span<const std::uint8_t> piece_of(std::span<const std::uint8_t> whole, std::size_t number);
 
-/// Pieces of an artifact as they come: in any order, several times, or never.
+/// Collects the pieces of an artifact, in any order and with repetitions.
 class Pieces {
   public:
     Pieces(const Hash& hash, std::size_t bytes) : hash_(hash), pieces_(pieces_of(bytes)), bytes_(bytes) {}
 
     enum class Verdict : std::uint8_t {
         taken,
-        not_one,      ///< there is no such piece, or it has another length
-        whole,        ///< with it all are there, and fit the hash
-        wrong_whole,  ///< with it all were there, and do not: all are to come again
+        not_one,      ///< invalid number or length
+        whole,        ///< all pieces are complete, and the hash is correct
+        wrong_whole,  ///< all pieces were complete, but the hash is wrong: all are needed again
     };
     Verdict take(std::size_t number, std::span<const std::uint8_t> piece);
     std::size_t missing() const;
     const Hash& hash() const { return hash_; }
-    /// Once whole.
+    /// Valid when complete.
     const std::vector<std::uint8_t>& artifact() const { return artifact_; }
 
   private:

@@ -7,7 +7,7 @@
 
 #include "orders/crypto.h"
 
-/// Where what is said of orders goes, beside Sparkplug's own topics. README.md.
+/// MQTT topics of orders and reports, besides Sparkplug's own. README.md.
 namespace nplc::orders {
 
 inline constexpr std::string_view kTopics = "nanoplc/v1/";
@@ -16,10 +16,10 @@ inline constexpr std::string_view kTopics = "nanoplc/v1/";
 std::string report_topic(std::string_view target);
 std::string order_topic(std::string_view target);
 std::string piece_topic(const Hash& hash, std::size_t number);
-/// All pieces of it.
+/// The topic filter for all its pieces.
 std::string pieces_topic(const Hash& hash);
 
-/// Of an order or a report: its target.
+/// The target in the topic of an order or report.
 std::optional<std::string> target_of(std::string_view topic, std::string_view kind);
 struct PieceTopic {
     Hash hash{};

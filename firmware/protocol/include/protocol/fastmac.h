@@ -8,7 +8,7 @@ namespace nplc::protocol::fastmac {
 /// Bits 6..5 of a command byte (001 §5.2.1.4).
 enum class Mode : std::uint8_t { init = 0, velocity = 1, position = 2, command = 3 };
 
-/// The register group that bits 4..0 name in init, velocity and position mode.
+/// The register group selected by bits 4..0 in init, velocity and position mode.
 enum class Group : std::uint8_t { p, v, a, t, l, z };
 
 /// Command-mode numbers, bits 4..0 (001 §5.2.1.4). 17h - 1Ch are NOPs too.
@@ -41,7 +41,7 @@ enum class Number : std::uint8_t {
     use_flexmac = 0x1F,
 };
 
-/// A command without its toggle bit: bits 6..0 of the byte on the line, as a sequence term holds it.
+/// A command without its toggle bit: bits 6..0 of the byte on the line, as in a sequence term.
 struct Command {
     Mode mode = Mode::command;
     Group group = Group::p;   ///< init, velocity, position mode
@@ -50,18 +50,18 @@ struct Command {
     bool operator==(const Command&) const = default;
 };
 
-/// How bits 4..0 name a register. The list of 001 §5.2.1.4 is what the project follows. The bytes of the
-/// example in §5.2.1.5 fit another, older code: A 000xx, V 10xxx, P 11xxx; it shows no T, L or Z (its one T
-/// byte fits neither code), which are put at 001xx, 010xx and 011xx here.
+/// Coding of a register in bits 4..0. The project follows the list of 001 §5.2.1.4. The bytes of the example
+/// in §5.2.1.5 fit another, older code: A 000xx, V 10xxx, P 11xxx; it shows no T, L or Z (its one T byte fits
+/// neither code), which are assumed at 001xx, 010xx and 011xx here.
 enum class RegisterCode : std::uint8_t { format_list, older_example };
 
 inline constexpr std::uint8_t kToggle = 0x80;
 inline constexpr std::uint8_t kCommandBits = 0x7F;
 
-/// All 128 values mean something. Bit 7 is ignored. Fields that the mode does not use keep their defaults.
+/// All 128 values are valid. Bit 7 is ignored. Fields that the mode does not use keep their defaults.
 Command decode_command(std::uint8_t byte, RegisterCode code = RegisterCode::format_list);
 
-/// Bit 7 is 0. Out-of-range fields are cut to their bits.
+/// Bit 7 is 0. Out-of-range fields are truncated to their bits.
 std::uint8_t encode_command(const Command& command, RegisterCode code = RegisterCode::format_list);
 
 constexpr std::uint8_t command_byte(Number number) {
@@ -91,19 +91,19 @@ Status decode_status(std::uint8_t byte);
 /// header.
 std::uint8_t encode_status(const Status& status);
 
-/// The motor's receiving end: toggle rule and safe communication (001 §5.2.1.3, §5.2.1.4).
+/// The motor's receiver: toggle rule and safe communication (001 §5.2.1.3, §5.2.1.4).
 ///
 /// At power-up the toggle is 0 and communication rapid. A byte is accepted only if its toggle bit differs
-/// from that of the last accepted message, so a repeat does nothing. With safe communication the byte must
-/// also equal the one just before it. A third equal byte is a pair too, but its toggle is the accepted one by
-/// then: it does nothing.
+/// from that of the last accepted message, so a repeat has no effect. With safe communication the byte must
+/// also equal the previous one. A third equal byte is a pair too, but its toggle is then the accepted one: it
+/// has no effect.
 class CommandReceiver {
   public:
     /// The command to execute, without its toggle bit, if this byte completes a new one.
     std::optional<std::uint8_t> receive(std::uint8_t byte);
 
-    /// To be called at a framing error and at a pause of two characters: the byte before no longer counts. (A
-    /// master that slows down after status bit 2 leaves one character free between the two bytes; that is
+    /// To be called at a framing error and at a pause of two characters: the previous byte no longer counts.
+    /// (A master that slows down after status bit 2 leaves one character free between the two bytes; that is
     /// still a pair.)
     void break_pair() { previous_.reset(); }
 
@@ -114,8 +114,8 @@ class CommandReceiver {
     bool safe() const { return safe_; }
     bool toggle() const { return toggle_; }
 
-    /// For each FlexMAC message accepted, which switches the same toggle (001 §5.2.2). Breaks the pair: a
-    /// byte from before the message is not the first half of one after it.
+    /// For each accepted FlexMAC message, which switches the same toggle (001 §5.2.2). Breaks the pair: a
+    /// byte before the message is not the first half of one after it.
     void accept_other() {
         toggle_ = !toggle_;
         break_pair();

@@ -8,7 +8,7 @@
 
 namespace nplc::protocol::flexmac {
 
-/// How a message names what it reads or writes (001 §5.2.2).
+/// Addressing form of a message (001 §5.2.2).
 enum class Level : std::uint8_t {
     index,    ///< 1..15 of the short table, in the header itself
     reg,      ///< register number 1..255
@@ -24,8 +24,8 @@ struct Message {
     bool operator==(const Message&) const = default;
 };
 
-/// Read indices 14 and 15 command the protocol (001 §5.2.2); they are words and have no reply. Their longword
-/// headers FEh and FFh are no messages here (R): FFh is what a spike on an idle line looks like.
+/// Read indices 14 and 15 are protocol commands (001 §5.2.2); they are words and have no reply. Their
+/// longword headers FEh and FFh are not used as messages (R): a spike on an idle line looks like FFh.
 inline constexpr std::uint8_t kReadIndexUseFastMac = 14;
 inline constexpr std::uint8_t kReadIndexUseFlexMac = 15;
 inline constexpr Message kUseFastMac{.read = true, .target = kReadIndexUseFastMac};
@@ -43,35 +43,35 @@ struct Encoded {
     std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 
-/// Header, register or address block, data; low byte first, each protected byte followed by its inverse.
-/// A word write sends the low 16 bits of `value`. Empty for a message that no header can say: index 0 or over
-/// 15 (index 0 opens the register form), register 0 or over 255, a protocol command as longword.
+/// Header, register or address block, data; little-endian, each protected byte followed by its inverse. A
+/// word write sends the low 16 bits of `value`. Empty for a message that no header can encode: index 0 or
+/// over 15 (index 0 selects the register form), register 0 or over 255, a protocol command as longword.
 Encoded encode(const Message& message);
 
-/// A motor's answer to `request`: its header and block again, then the data with inverses (R: 001 §5.2.2 says
-/// only that header bytes tell it from a status byte). Empty if the request has no answer: writes, protocol
-/// commands.
+/// A motor's answer to `request`: its header and block again, then the data with inverses (R: 001 §5.2.2 only
+/// says that header bytes distinguish it from a status byte). Empty if the request has no answer: writes,
+/// protocol commands.
 Encoded encode_reply(const Message& request, std::uint32_t value);
 
-/// Register of 001 §3.2 behind a write or read index of §5.2.2's tables; 0 for an index without one (read 14,
-/// 15, any index 0 or over 15). Those above 88 are numbered otherwise on MAC800.
+/// Register of 001 §3.2 for a write or read index of §5.2.2's tables; 0 for an index without one (read 14,
+/// 15, any index 0 or over 15). Those above 88 have other numbers on MAC800.
 std::uint8_t register_of_write_index(std::uint8_t index);
 std::uint8_t register_of_read_index(std::uint8_t index);
 
-/// Address of register `reg`: 0408h + 2 x reg (R: from the two addresses in 001 §5.2.2). The inverse answers
-/// nothing for an odd address and for one outside registers 1..255.
+/// Address of register `reg`: 0408h + 2 x reg (R: from the two addresses in 001 §5.2.2). The inverse is empty
+/// for an odd address and for one outside registers 1..255.
 constexpr std::uint16_t address_of_register(std::uint8_t reg) {
     return static_cast<std::uint16_t>(0x0408 + 2 * reg);
 }
 std::optional<std::uint8_t> register_of_address(std::uint16_t address);
 
-/// The motor's receiving end, a byte at a time. A wrong header repeat or a wrong inverse drops the message;
-/// the byte that broke it may begin the next (R). The caller calls `abandon` at a framing error and at a
-/// pause of two characters; without such pauses a lost byte can turn two messages into a wrong one (see the
-/// folder's README).
+/// The motor's receiver, one byte at a time. A wrong header repeat or a wrong inverse drops the message; the
+/// wrong byte may begin the next one (R). The caller calls `abandon` at a framing error and at a pause of two
+/// characters; without such pauses a lost byte can turn two messages into a wrong one (see the folder's
+/// README).
 class RequestDecoder {
   public:
-    /// The message that this byte completes.
+    /// The message completed by this byte.
     std::optional<Message> receive(std::uint8_t byte);
     void abandon() { count_ = 0; }
     bool in_message() const { return count_ != 0; }
@@ -81,13 +81,13 @@ class RequestDecoder {
     std::uint8_t count_ = 0;
 };
 
-/// The master's receiving end. The motor's bytes are status bytes, and replies to reads, told apart by
-/// bits 6..5 (never both set in a status byte).
+/// The master's receiver. The motor sends status bytes, and replies to reads, distinguished by bits 6..5
+/// (never both set in a status byte).
 ///
-/// A byte with both bits set that is not part of a whole reply raises doubt: bytes of a broken reply may look
-/// like status bytes, even two equal ones in a row (an inverse and the next data byte). In doubt status bytes
-/// are held back until the third equal one in a row, which data with inverses cannot contain, or until a
-/// reply is whole. A stray byte thus costs the two status bytes after it.
+/// A byte with both bits set that is not part of a complete reply sets the state "in doubt": bytes of a
+/// broken reply may look like status bytes, even two equal ones in a row (an inverse and the next data byte).
+/// In doubt, status bytes are held back until the third equal one in a row, which data with inverses cannot
+/// contain, or until a reply is complete. A stray byte thus costs the two status bytes after it.
 class ReplyDecoder {
   public:
     struct Event {
@@ -97,8 +97,8 @@ class ReplyDecoder {
     };
     Event receive(std::uint8_t byte);
 
-    /// To be called at a framing error or an overrun. Not at a pause: a motor told to transmit slowly pauses
-    /// between the bytes of a reply too.
+    /// To be called at a framing error or an overrun. Not at a pause: a motor in slow transmission also
+    /// pauses between the bytes of a reply.
     void abandon();
 
   private:
@@ -108,7 +108,7 @@ class ReplyDecoder {
     std::uint8_t count_ = 0;
     bool doubt_ = false;
     std::uint8_t run_ = 0;   // in doubt: equal status bytes in a row
-    std::uint8_t last_ = 0;  // in doubt: the byte they are equal to
+    std::uint8_t last_ = 0;  // in doubt: value of these bytes
 };
 
 }  // namespace nplc::protocol::flexmac

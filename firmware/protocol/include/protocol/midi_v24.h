@@ -15,10 +15,11 @@ inline constexpr std::uint8_t kAck = 0x06;
 inline constexpr std::uint8_t kXoff = 0x13;
 inline constexpr std::uint8_t kNack = 0x15;
 inline constexpr std::uint8_t kXonError = 0x17;
-inline constexpr std::uint8_t kXonErrorInTheField = 0x18;  ///< some modules refuse with this
+inline constexpr std::uint8_t kXonErrorInTheField = 0x18;  ///< variant of some modules for a refusal
 inline constexpr std::uint8_t kXon = 0x1A;
 
-inline constexpr std::uint8_t kGeneral = 0xFF;  ///< every module acts; R: only address 00 answers (000 §IV)
+inline constexpr std::uint8_t kGeneral =
+    0xFF;  ///< every module executes it; R: only address 00 answers (000 §IV)
 inline constexpr std::uint8_t kMaxAddress = 0x7F;
 inline constexpr std::uint8_t kFirstQuery = 0x20;  ///< indices 00h..1Fh are commands, 20h..2Fh queries
 
@@ -30,10 +31,10 @@ struct Request {
     bool operator==(const Request&) const = default;
 };
 
-/// What a query is answered with, between Xoff and Xon.
+/// The reply to a query, between Xoff and Xon.
 struct Reply {
     std::uint8_t address = 0;
-    std::uint8_t digit = 0;  ///< of the query's index the low one, 0..15
+    std::uint8_t digit = 0;  ///< low digit of the query's index, 0..15
     std::uint32_t data = 0;
     bool operator==(const Reply&) const = default;
 };
@@ -53,18 +54,18 @@ using RequestBytes = std::array<std::uint8_t, kAround + kRequestFields>;
 using ReplyBytes = std::array<std::uint8_t, kAround + kReplyFields>;
 
 RequestBytes encode(const Request& request);
-/// Of `digit` the low four bits are sent.
+/// Only the low four bits of `digit` are sent.
 ReplyBytes encode_reply(const Reply& reply);
 
-/// A frame of one form, a byte at a time. Stx begins one wherever it comes. Another length or a missing Etx
-/// is no frame.
+/// Reads frames of one form, one byte at a time. Stx always begins a new one. Another length or a missing Etx
+/// is an invalid frame.
 class FrameReader {
   public:
     enum class State : std::uint8_t {
-        outside,  ///< the byte belongs to no frame, or broke the one that was under way
+        outside,  ///< the byte belongs to no frame, or broke the one in progress
         inside,
         whole,
-        damaged,  ///< all of a frame's characters, but the sum is wrong or one is no digit 0-9, A-F
+        damaged,  ///< complete, but the sum is wrong or a character is no digit 0-9, A-F
     };
     /// 14 or 11 characters between length and sum.
     explicit FrameReader(std::size_t fields) : fields_(static_cast<std::uint8_t>(fields)) {}
@@ -72,7 +73,8 @@ class FrameReader {
     void abandon() { count_ = 0; }
     bool in_frame() const { return count_ != 0; }
 
-    /// After `whole` and `damaged`, until the next byte. -1 if a character is no digit; at most 8 of them.
+    /// Valid after `whole` and `damaged`, until the next byte. -1 if a character is no digit; at most 8 of
+    /// them.
     std::int64_t number(std::size_t from, std::size_t digits) const;
 
   private:
@@ -81,25 +83,25 @@ class FrameReader {
     bool all_digits() const;
 
     std::uint8_t fields_;
-    std::uint8_t count_ = 0;  ///< characters of the frame so far, Stx among them
+    std::uint8_t count_ = 0;  ///< characters of the frame so far, including Stx
     std::array<std::uint8_t, kRequestFields + 2> bytes_;
 };
 
-/// A module's receiving end. It reports each frame on the line, whatever its address: which are its own is
-/// the caller's to say. What is to be answered stands at Event::Kind.
+/// A module's receiver. It reports each frame on the line, for any address; the caller selects its own. The
+/// required answer is given at Event::Kind.
 class RequestDecoder {
   public:
     struct Event {
         enum class Kind : std::uint8_t {
             none,
-            request,  ///< Ack, Xoff, the reply of a query, Xon; or Ack, Xoff, Xonerror
-            damaged,  ///< Nack; of `request` only the address is filled in, as it came
+            request,  ///< answer: Ack, Xoff, the reply of a query, Xon; or Ack, Xoff, Xonerror
+            damaged,  ///< answer: Nack; of `request` only the address is set, as received
         };
         Kind kind = Kind::none;
         Request request{};
     };
     Event receive(std::uint8_t byte);
-    /// To be called at a framing error. The manual bounds no pause.
+    /// To be called at a framing error. The manual gives no limit for pauses.
     void abandon() { frame_.abandon(); }
     bool in_frame() const { return frame_.in_frame(); }
 
@@ -107,7 +109,7 @@ class RequestDecoder {
     FrameReader frame_{kRequestFields};
 };
 
-/// What a master hears after a request (000 §II, §III).
+/// The answer to a master's request (000 §II, §III).
 struct Answer {
     enum class Kind : std::uint8_t {
         none,            ///< not yet
@@ -115,15 +117,15 @@ struct Answer {
         value,           ///< a query was answered
         refused,         ///< understood and not carried out
         not_understood,  ///< Nack: not carried out
-        unclear,  ///< a reply damaged, missing or another module's; a command may have been carried out
+        unclear,  ///< reply damaged, missing or from another module; a command may have been carried out
     };
     Kind kind = Kind::none;
     std::uint32_t value = 0;
     bool operator==(const Answer&) const = default;
 };
 
-/// The master's receiving end: one answer to one request. Characters that do not belong are passed over; what
-/// comes after the answer is reported no more.
+/// The master's receiver: one answer to one request. Unexpected characters are ignored, also after the
+/// answer.
 class AnswerDecoder {
   public:
     void expect(const Request& request);
@@ -138,7 +140,7 @@ class AnswerDecoder {
 
     bool waiting_ = false;
     bool acknowledged_ = false;
-    bool busy_ = false;  ///< Ack and Xoff came
+    bool busy_ = false;  ///< Ack and Xoff were received
     bool has_value_ = false;
     bool spoilt_ = false;
     FrameReader frame_{kReplyFields};

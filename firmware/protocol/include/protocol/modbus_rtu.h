@@ -8,10 +8,10 @@
 #include "base/time.h"
 #include "protocol/modbus_pdu.h"
 
-/// Modbus over Serial Line V1.02 §2.5: RTU frames, as a slave hears and sends them. No heap.
+/// Modbus over Serial Line V1.02 §2.5: RTU frames, receiver and sender of a slave. No heap.
 namespace nplc::protocol::modbus {
 
-/// §2.5.1.2: polynomial A001h reflected, begun with FFFFh; "123456789" gives 4B37h. The low byte goes first.
+/// §2.5.1.2: polynomial A001h reflected, initial value FFFFh; "123456789" gives 4B37h. Sent low byte first.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 constexpr std::size_t kMostFrame = 256;
@@ -27,18 +27,18 @@ constexpr base::Microseconds silence_between_frames(std::uint32_t baud) {
     return base::Microseconds((38'500'000U + baud - 1U) / baud);
 }
 
-/// Takes what comes over a line with several slaves apart, a byte at a time. A frame ends where its function
-/// says, or at a silence; what neighbours answer is passed over. What is damaged is passed over up to the
-/// next silence.
+/// Splits the bytes of a line with several slaves into frames. A frame ends at the length given by its
+/// function, or at a silence; other slaves' answers are skipped. After an error everything is skipped up to
+/// the next silence.
 class RtuReader {
   public:
-    /// True: frame() is a whole one, until the next byte.
+    /// True: frame() is complete, until the next byte.
     bool take(std::uint8_t byte);
-    /// The line has been silent: true as of take(), for a frame whose length nobody knows.
+    /// The line has been silent: true as for take(), for a frame of unknown length.
     bool silence();
-    /// A character came with an error.
+    /// A character was received with an error.
     void damaged() { is_deaf_ = true; }
-    /// Something has come that is no whole frame yet.
+    /// An incomplete frame was received.
     bool is_under_way() const { return is_deaf_ || (size_ != 0 && !is_whole_); }
 
     std::uint8_t unit() const { return bytes_[0]; }
@@ -58,7 +58,7 @@ class RtuReader {
     bool is_deaf_ = false;
 };
 
-/// An answer on its way out.
+/// An answer to be sent.
 class RtuFrame {
   public:
     RtuFrame() = default;

@@ -11,15 +11,15 @@
 #include "registers/settings.h"
 #include "registers/vocabulary.h"
 
-/// The gateway's own registers on the user's port, reached by MacTalk (001 §5.1). No manual describes them:
-/// the map is ours. One register is a longword in one number; numbers without a row read 0. What each means
-/// stands in firmware/gateway/REGISTERS.md.
+/// The gateway's own registers on the user port, accessed by MacTalk (001 §5.1). The map is defined by this
+/// project. One register is a longword in one number; numbers without a row read 0. Their meanings are in
+/// firmware/gateway/REGISTERS.md.
 namespace nplc::registers::gateway {
 
-inline constexpr std::uint32_t kIdentity = 0x474C504E;  ///< "NPLG", as it goes over the line
+inline constexpr std::uint32_t kIdentity = 0x474C504E;  ///< "NPLG" in the order on the line
 inline constexpr std::uint32_t kMapVersion = 1;
-/// R: 255 is everyone, and the motor behind the gateway answers it; 254 is what clients in the field use for
-/// a single motor, and motors come with 1.
+/// R: 255 is the broadcast address, answered by the motor behind the gateway; 254 is commonly used by clients
+/// for a single motor, and motors are delivered with 1.
 inline constexpr std::uint8_t kDefaultAddress = 128;
 
 enum Number : std::uint8_t {
@@ -117,8 +117,8 @@ inline constexpr std::uint8_t kProofWords = 8;  ///< PROOF and the 7 after it
 inline constexpr std::uint8_t kSetPoints = 16;  ///< SET_POINT and the 15 after it, SET_POINT_WANTED too
 inline constexpr std::uint8_t kLines = 3;       ///< LINE_FAULTS and the two after it
 inline constexpr std::uint8_t kFirmwareSlots =
-    2;  ///< FIRMWARE_VERSION and FIRMWARE_SLOT and the one after each
-inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
+    2;  ///< FIRMWARE_VERSION and FIRMWARE_SLOT, and the one after each
+inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: one bit per term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
 inline constexpr std::uint8_t kMostSettings = 31;  ///< registers of settings, from SETTINGS + 1 on
 
@@ -127,21 +127,21 @@ constexpr std::uint8_t register_of(Setting setting) {
     return static_cast<std::uint8_t>(SETTINGS + static_cast<unsigned>(setting));
 }
 
-/// Bytes of PASSWORD: a long write, filled up with zeros to a multiple of 4.
+/// Bytes of PASSWORD: a long write, padded with zeros to a multiple of 4.
 inline constexpr std::size_t kLeastPassword = 8;
 inline constexpr std::size_t kMostPassword = 128;
 
-/// Where a write changes nothing but what a later command or read goes by: it needs no operator's seat.
+/// Registers whose write only sets a parameter of a later command or read: they need no operator's seat.
 constexpr bool only_prepares(std::uint8_t reg) {
     return reg == UPLOAD_BYTES || reg == TABLE_POINTER || reg == SET_POINT_POINTER;
 }
 
-/// What everybody may write, whoever operates: what only prepares, and the end of forces.
+/// Writes allowed for every client: those that only prepare, and the end of forces.
 constexpr bool is_for_everybody(std::uint8_t reg, std::uint32_t value) {
     return only_prepares(reg) || ((reg == FORCE_IN || reg == FORCE_OUT) && value == 0);
 }
 
-/// What follows the end term of a table that is uploaded with a certificate: this, then its SHA-256.
+/// Appendix after the end term of a table that is uploaded with a certificate: this mark, then its SHA-256.
 inline constexpr std::array<std::uint8_t, 8> kProofMark{'N', 'P', 'L', 'P', 'R', 'O', 'O', 'F'};
 inline constexpr std::size_t kDigestBytes = std::size_t{4} * kProofWords;
 inline constexpr std::size_t kProofBytes = kProofMark.size() + kDigestBytes;
@@ -149,29 +149,28 @@ inline constexpr std::size_t kProofBytes = kProofMark.size() + kDigestBytes;
 /// SET_POINT_STATE.
 enum SetPointBit : std::uint32_t {
     kChangeWaits = 1U << 0,      ///< wanted values are not in force yet
-    kValuesDamaged = 1U << 1,    ///< the stored ones; older ones or defaults stand in
+    kValuesDamaged = 1U << 1,    ///< of the stored values; older ones or defaults are used
     kRecipeDiffers = 1U << 2,    ///< wanted values are not those of the recipe that was loaded last
     kActiveRecipe = 0xFFU << 8,  ///< its number; 0: none
 };
 
-/// Bits 31..16 of SET_POINT_POINTER: what SET_POINT_DATA shows from the byte in bits 15..0 on, in a block
-/// from SET_POINT_POINTER.
+/// Bits 31..16 of SET_POINT_POINTER: the content of SET_POINT_DATA, from the byte in bits 15..0 on, in a
+/// block from SET_POINT_POINTER.
 enum class SetPointView : std::uint8_t { record = 0, first_recipe = 1, requests = 254, changes = 255 };
 inline constexpr std::size_t kSetPointDataBytes = 60;
 
-/// A change as the view `changes` has it, 16 bytes each, the last one first.
+/// An entry of the view `changes`, 16 bytes each, the latest first.
 inline constexpr std::size_t kChangeBytes = 16;
 
-/// How the last requests ended, as the view `requests` has it: each one's own number and RESULT, 4 bytes
-/// each.
+/// An entry of the view `requests`: a request's own number and its RESULT, 4 bytes each.
 inline constexpr std::size_t kKeptRequests = 4;
-inline constexpr std::uint32_t kRequestUnderWay = 0xFFFF'FFFF;  ///< in the place of RESULT
+inline constexpr std::uint32_t kRequestUnderWay = 0xFFFF'FFFF;  ///< instead of RESULT
 
 enum class Access : std::uint8_t { read, read_write, write };
 
 struct Row {
     std::uint8_t number;
-    std::uint8_t count;  ///< numbers that the row takes
+    std::uint8_t count;  ///< register numbers of the row
     std::string_view name;
     Access access;
     std::string_view text;
@@ -179,7 +178,7 @@ struct Row {
 
 /// In ascending order of number.
 std::span<const Row> map();
-/// The row that a number belongs to; nullptr if none.
+/// The row that contains a number; nullptr if none.
 const Row* find(std::uint8_t number);
 const Row* find(std::string_view name);
 

@@ -7,8 +7,8 @@
 
 namespace nplc::registers {
 
-/// Register numbers of MAC50/95/140/141 (001 §3.2) that the firmware and its tools name. 1..88 hold for the
-/// MAC800 too.
+/// Register numbers of MAC50/95/140/141 (001 §3.2) used in the firmware and its tools. 1..88 also apply to
+/// the MAC800.
 enum Number : std::uint8_t {
     PROG_VERSION = 1,
     MODE_REG = 2,
@@ -62,7 +62,7 @@ enum Number : std::uint8_t {
 
 enum class Format : std::uint8_t { word, integer, long_int, fixed4, fixed8, fixed16, fixed24 };
 
-/// What the number counts; `none` for modes, pointers and plain numbers. Factors: registers/scale.h.
+/// The quantity of a register; `none` for modes, pointers and plain numbers. Factors: registers/scale.h.
 enum class Unit : std::uint8_t {
     none,
     bits,             ///< named in registers/details.h
@@ -84,13 +84,13 @@ enum class Unit : std::uint8_t {
 
 enum class Access : std::uint8_t {
     read_write,
-    motor_writes,  ///< may be written, and the motor writes it too
-    read_only,     ///< the motor overwrites it, or it only tells something
+    motor_writes,  ///< may be written, and is also written by the motor
+    read_only,     ///< overwritten by the motor, or informative only
 };
 
 enum class Model : std::uint8_t { mac50, mac95, mac140, mac141, mac800 };
 
-/// Encoder and sample rate: what turns counts and samples into revolutions and seconds.
+/// Encoder and sample rate, for converting counts and samples to revolutions and seconds.
 struct Scale {
     std::int32_t counts_per_rev;
     double samples_per_second;
@@ -103,7 +103,7 @@ struct Register {
     Unit unit;
     std::int64_t min;  ///< raw, as written to the line
     std::int64_t max;
-    bool dangerous;  ///< a change may damage the motor or upset its control
+    bool dangerous;  ///< a change may damage the motor or disturb its control
     Access access;
     std::string_view section;  ///< of the manual
 };
@@ -112,10 +112,10 @@ constexpr bool is_32_bit(Format format) {
     return format == Format::long_int || format == Format::fixed16 || format == Format::fixed24;
 }
 
-/// The map of a model, in ascending order of number. Registers 1..127 at the least.
+/// The map of a model, in ascending order of number. At least registers 1..127.
 std::span<const Register> map_of(Model model);
 const Register* find(Model model, std::uint8_t number);
-/// Case counts not. On a MAC800 the names of 001 §3.2 are found too, up to register 88 (P1 is its POS0).
+/// Case-insensitive. On a MAC800 the names of 001 §3.2 are found too, up to register 88 (P1 is its POS0).
 const Register* find(Model model, std::string_view name);
 Scale scale_of(Model model);
 std::optional<Model> model_of(std::string_view name);

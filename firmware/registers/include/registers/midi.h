@@ -56,7 +56,7 @@ enum Query : std::uint8_t {
     GET_EEPROM = 9,
 };
 
-/// What a field counts. How to reach physical units: registers/midi_scale.h.
+/// The quantity of a field. Conversion to physical units: registers/midi_scale.h.
 enum class Unit : std::uint8_t {
     none,
     choice,       ///< one of a few values
@@ -70,7 +70,7 @@ enum class Unit : std::uint8_t {
     supply,
 };
 
-/// A part of the four bytes of parameters or of a reply, as a 32-bit number whose first byte is the highest.
+/// A part of the four bytes of parameters or of a reply, as a big-endian 32-bit number.
 struct Field {
     std::string_view name{};
     std::uint8_t shift = 0;
@@ -107,7 +107,7 @@ struct QueryRow {
     std::string_view section{};
 };
 
-/// In ascending order of number; fields that a row does not use have no bits.
+/// In ascending order of number; unused fields of a row have no bits.
 std::span<const CommandRow> commands();
 std::span<const QueryRow> queries();
 const CommandRow* find_command(std::uint8_t number);
@@ -117,9 +117,9 @@ const QueryRow* find_query(std::string_view name);
 
 /// A field's value in four bytes of parameters or reply.
 std::int32_t unpack(const Field& field, std::uint32_t data);
-/// The parameters of a command; nothing if a value is out of its field's range.
+/// The parameters of a command; empty if a value is out of its field's range.
 std::optional<std::uint32_t> pack(const CommandRow& row, std::int32_t first = 0, std::int32_t second = 0);
-/// Every field is within its range; bits outside the fields are not looked at.
+/// Every field is within its range; bits outside the fields are ignored.
 bool is_legal(const CommandRow& row, std::uint32_t data);
 
 inline constexpr std::int32_t kMinPosition = -1'073'741'824;  ///< 003 §IV; the counter wraps (R)
@@ -132,8 +132,8 @@ inline constexpr std::uint32_t kFactoryBaud = 38'400;
 /// Bauds of BAUD's code 1..3; 0 for others (000 §VI 1Bh).
 std::uint32_t baud_of(std::int32_t code);
 
-/// Bits of GET_STATUS's four bytes, its first byte highest. On a MAC23 all trips but that of the supply are
-/// bit 28 (R).
+/// Bits of GET_STATUS's four bytes, its first byte highest. On a MAC23 all trips except that of the supply
+/// are bit 28 (R).
 enum StatusBit : std::uint32_t {
     kOverVoltage = 1U << 30,
     kUnderVoltage = 1U << 29,
@@ -148,7 +148,7 @@ enum StatusBit : std::uint32_t {
     kAtLowerStop = 1U << 16,
     kOverVoltageKept = 1U << 7,
 };
-/// Any of these cuts the power, and holds until RESET or power-off.
+/// Any of these cuts the motor power until RESET or power-off.
 inline constexpr std::uint32_t kTrips =
     kThermalTrip23 | kAmplifierTrip | kThermalTrip | kEncoderTrip | kSupplyTrip;
 
@@ -162,12 +162,12 @@ enum TerminalBit : std::uint32_t {
 
 struct Bit {
     std::uint32_t mask;
-    std::string_view text;  ///< for the user, when it is 1
+    std::string_view text;  ///< message when it is 1
 };
 std::span<const Bit> status_bits();
 std::span<const Bit> terminal_bits();
 
-/// What the manuals say of a model. Voltages in mV.
+/// Data of a model from the manuals. Voltages in mV.
 struct Facts {
     std::string_view name;
     std::int32_t increments_per_rev;

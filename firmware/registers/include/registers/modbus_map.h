@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Where values and commands stand for a PLC: the same addresses on every board
-/// (firmware/faces/modbus/README.md, The map). Addresses as in the message, from 0.
+/// The PLC's addresses of values and commands: the same on every board (firmware/faces/modbus/README.md, The
+/// map). Addresses as in the message, from 0.
 namespace nplc::registers::modbus {
 
 enum Coil : std::uint16_t { kRun, kStop, kSafe, kHold, kStep, kScan, kAcknowledge, kResetError, kCoils };
@@ -26,7 +26,7 @@ enum Discrete : std::uint16_t {
     kStopUnconfirmed,
     kDiscretes,
 };
-/// Of `command`, beside the gateway's own run to hold.
+/// Values of `command` besides the gateway's own run to hold.
 enum PlantCommand : std::uint16_t {
     kAcknowledgeEvents = 32,
     kResetMotorError = 33,
@@ -59,12 +59,12 @@ enum Input : std::uint16_t {
     kResult = 42,
     kResultDetail = 43,
     kImageAge = 44,
-    kLatePolls = 48,        ///< two words, the last in this row
+    kLatePolls = 48,        ///< two words, the last of the contiguous ones
     kPositionCounts = 100,  ///< two words
 };
 inline constexpr std::uint16_t kMapNumber = 1;
 
-/// A motor's register n stands in two holding registers from here + 2 n on.
+/// Register n of a motor is in two holding registers from here + 2 n on.
 inline constexpr std::uint16_t kMotorWindow = 1000;
 inline constexpr std::uint16_t kMotorWindowEnd = kMotorWindow + 2 * 256;
 

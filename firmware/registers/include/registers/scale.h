@@ -6,13 +6,13 @@
 
 namespace nplc::registers {
 
-/// An exact factor, in lowest terms; both parts positive.
+/// An exact factor, reduced; both parts positive.
 struct Ratio {
     std::int64_t numerator = 1;
     std::int64_t denominator = 1;
 
     friend constexpr bool operator==(const Ratio&, const Ratio&) = default;
-    /// Reduced crosswise first, so that the products stay small.
+    /// Cross-reduced first, so that the products stay small.
     friend constexpr Ratio operator*(const Ratio& a, const Ratio& b) {
         const std::int64_t ab = std::gcd(a.numerator, b.denominator);
         const std::int64_t ba = std::gcd(b.numerator, a.denominator);
@@ -33,9 +33,8 @@ ExactScale exact_scale_of(Model model);
 /// The number 1 in a format: 1, or 256 for Fixed8 (001 §3.1, 004).
 std::int64_t one_in(Format format);
 
-/// How many raw steps of the register one `unit` is, exactly; nothing if the unit does not fit it. Upper and
-/// lower case and blanks do not count. No unit is the raw step itself, and in fixed-point registers the
-/// number 1.
+/// Raw steps of the register per `unit`, exactly; empty if the unit does not fit it. Case-insensitive, blanks
+/// are ignored. No unit is the raw step itself, and in fixed-point registers the number 1.
 ///
 /// Lengths `counts`, `rev`; speeds `rpm` or a length with `/s`; accelerations a speed with `/s` or a length
 /// with
@@ -44,7 +43,7 @@ std::int64_t one_in(Format format);
 /// take no unit.
 std::optional<Ratio> raw_per_unit(const Register& reg, Model model, std::string_view unit);
 
-/// The units that people use for such a register, the usual one first; none for a plain number.
+/// The usual units for such a register, the most common first; none for a plain number.
 std::span<const std::string_view> units_of(Unit unit);
 
 }  // namespace nplc::registers

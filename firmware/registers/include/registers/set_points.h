@@ -7,19 +7,19 @@
 
 #include "base/bytes.h"
 
-/// The set-points of a table: values that a user may change while the machine lives, and how far. A record
-/// of them follows the end term of the table that is uploaded, before the certificate; the table itself has
-/// their defaults. firmware/gateway/SET_POINTS.md describes the bytes.
+/// The set-points of a table: values that an operator may change while the machine is in use, with their
+/// ranges. Their record follows the end term of the uploaded table, before the certificate; the table itself
+/// has their defaults. firmware/gateway/SET_POINTS.md describes the bytes.
 namespace nplc::registers::set_points {
 
 inline constexpr std::array<std::uint8_t, 8> kMark{'N', 'P', 'L', 'S', 'E', 'T', 'P', 'T'};
 inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::size_t kMost = 16;               ///< of one table
-inline constexpr std::size_t kMostRecordBytes = 1024;  ///< mark included
+inline constexpr std::size_t kMost = 16;               ///< per table
+inline constexpr std::size_t kMostRecordBytes = 1024;  ///< including the mark
 inline constexpr std::size_t kHeaderBytes = 20;
 inline constexpr std::size_t kEntryBytes = 36;  ///< without places and texts
 
-/// What takes the value.
+/// The target of the value.
 enum class ValueKind : std::uint8_t { motor_register = 0, timer = 1, counter = 2 };
 
 /// Unit of a value's steps: a registers::Unit for a motor's register, else one of these.
@@ -29,9 +29,10 @@ inline constexpr std::uint8_t kCount = 0x81;
 enum Flag : std::uint8_t {
     kAtPowerUp = 1,  ///< POWER_UP writes it; written to the motor at a step that takes set-points
     kLongword = 2,
+    kGrid = 4,  ///< behind the texts: the lower end as written, from which tools lay the steps
 };
 
-/// One set-point in a record. Numbers are in the steps of what takes them, signed.
+/// One set-point in a record. Numbers are signed, in the raw steps of their target.
 class Entry {
   public:
     explicit Entry(const std::uint8_t* bytes) : bytes_(bytes) {}
@@ -48,7 +49,7 @@ class Entry {
         return base::load_u32(bytes_ + 16);
     }  ///< CRC-32 of the name in capitals
     std::size_t places() const { return bytes_[32]; }
-    /// Number of a term that has the value.
+    /// Number of a term with the value.
     std::uint16_t place(std::size_t index) const { return base::load_u16(bytes_ + kEntryBytes + 2 * index); }
     std::size_t name_bytes() const { return bytes_[33]; }
     std::size_t unit_bytes() const { return bytes_[34]; }
@@ -64,10 +65,10 @@ class Entry {
     const std::uint8_t* bytes_;
 };
 
-/// Writes a value into the bytes of a term that has it.
+/// Writes a value into the bytes of its term.
 void patch(std::uint8_t* term, const Entry& entry, std::int32_t value);
 
-/// A record that is_sound(), or none.
+/// A record that is_sound(), or an empty one.
 class Record {
   public:
     Record() = default;
@@ -75,7 +76,7 @@ class Record {
 
     std::size_t count() const { return bytes_.empty() ? 0 : bytes_[11]; }
     Entry entry(std::size_t index) const;
-    /// A change of values may take hold when `step` is active.
+    /// Changed values may take effect when `step` is active.
     bool takes_at(std::uint8_t step) const {
         return !bytes_.empty() && (std::uint32_t{bytes_[12 + step / 8U]} >> (step % 8U) & 1U) != 0;
     }
@@ -85,11 +86,11 @@ class Record {
     std::span<const std::uint8_t> bytes_;
 };
 
-/// How many bytes the record that begins here has; 0: none begins here.
+/// Length of the record that begins here; 0: none.
 std::size_t record_bytes(std::span<const std::uint8_t> behind_end_term);
 
-/// Whole, within the limits, and each value stands in `table` (whole terms) where the record says, with its
-/// default.
+/// Complete, within the limits, and each place in `table` (whole terms) has the default that the record
+/// gives.
 bool is_sound(std::span<const std::uint8_t> record, std::span<const std::uint8_t> table);
 
 }  // namespace nplc::registers::set_points

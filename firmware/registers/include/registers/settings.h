@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <string_view>
 
-/// The gateway's settings as numbers, as they are stored, and read and written over the user's port.
+/// The numbers of the gateway's settings, for storing and for access over the user port.
 namespace nplc::registers::gateway {
 
-/// The numbers are stored and must stay what they are.
+/// The numbers are stored and must not change.
 enum class Setting : std::uint8_t {
+    /// Not the user's to set, and in no list: the SafeReason for which nothing starts by itself until
+    /// somebody has commanded run; `none` once somebody has, initially `not_started`.
+    waits_for_run = 0,
     gateway_address = 1,
     user_baud = 2,
     motor_baud = 3,
@@ -41,12 +44,12 @@ inline constexpr std::uint32_t kNone = 255;
 struct SettingInfo {
     Setting id;
     std::string_view name;
-    std::string_view unit;  ///< empty: a number, or a choice that `help` explains
+    std::string_view unit;  ///< empty: a number, or a choice described in `help`
     std::uint32_t initial;
     std::uint32_t lowest;
     std::uint32_t highest;
-    bool has_none;  ///< kNone is a value too
-    bool at_reset;  ///< takes hold at the next reset, if kept
+    bool has_none;  ///< kNone is allowed too
+    bool at_reset;  ///< takes effect at the next reset, if kept
     std::string_view help;
 };
 
@@ -54,11 +57,12 @@ inline constexpr std::size_t kSettings = 23;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);
-/// Of a speed: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600 baud.
+/// Standard baud rates: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 and 921600.
 bool is_standard_rate(std::uint32_t baud);
+/// Of the user's.
 bool is_setting(std::uint8_t id);
 std::uint32_t initial_value(Setting setting);
-/// False too for what is no setting.
+/// Also false for an unknown setting.
 bool is_allowed(Setting setting, std::uint32_t value);
 
 }  // namespace nplc::registers::gateway

@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <string_view>
 
-/// What the values in the gateway's registers mean, each with the word that programs print for it. Firmware,
-/// tools and simulator use these declarations; firmware/gateway/REGISTERS.md describes them.
+/// The values of the gateway's registers, each with the text that programs print for it. Used by firmware,
+/// tools and simulator; described in firmware/gateway/REGISTERS.md.
 namespace nplc::registers::gateway {
 
 template <class Value>
@@ -14,7 +14,7 @@ struct Word {
     std::string_view text;
 };
 
-/// The value's word, or `otherwise` for a number that is none of them.
+/// The value's text, or `otherwise` for an unknown number.
 template <class Value>
 constexpr std::string_view word_of(Value value, std::initializer_list<Word<Value>> words,
                                    std::string_view otherwise = "unknown") {
@@ -30,7 +30,7 @@ enum class RunState : std::uint8_t {
     waiting_for_motor = 1,  ///< started; the link is not up yet, or the stop order is not executed yet
     running = 2,
     holding = 3,  ///< its last orders are being executed, then the motor is being stopped, to be held
-    held = 4,     ///< between two scans, until it is told to go on
+    held = 4,     ///< between two scans, until it is continued
 };
 
 constexpr std::string_view name_of(RunState state) {
@@ -42,8 +42,8 @@ constexpr std::string_view name_of(RunState state) {
                                      {held, "held"}});
 }
 
-/// SAFE_REASON: why the outputs have their safe values (and, where the line works, the motor was told to
-/// stop). In the log's entries too, below the codes of Event.
+/// SAFE_REASON: why the outputs have their safe values (and the motor was told to stop, if the line works).
+/// Also in the log's entries, below the codes of Event.
 enum class SafeReason : std::uint8_t {
     none = 0,
     not_started = 1,
@@ -55,12 +55,12 @@ enum class SafeReason : std::uint8_t {
     enable_lost = 7,
     safe_command = 8,
     bad_settings = 9,   ///< the stored ones are damaged: nothing runs until settings are kept
-    bad_run_mark = 10,  ///< what says that the sequence runs is damaged, missing, or cannot be written
-    no_lines = 11,      ///< 11 to 13: the board lacks what the axis needs and tries to have it again
+    bad_run_mark = 10,  ///< the run marker is damaged, missing, or cannot be written
+    no_lines = 11,      ///< 11 to 13: a required resource of the axis is missing and is retried
     no_store = 12,
-    no_port = 13,         ///< the user's
-    no_proof = 14,        ///< the table has no certificate, and setting require_proof asks for one
-    bad_set_points = 15,  ///< the stored values are damaged: older ones or defaults stand in
+    no_port = 13,         ///< the user port
+    no_proof = 14,        ///< the table has no certificate, and setting require_proof requires one
+    bad_set_points = 15,  ///< the stored values are damaged: older ones or defaults are used
 };
 
 constexpr std::string_view name_of(SafeReason reason) {
@@ -100,13 +100,12 @@ enum class Event : std::uint8_t {
     crashed = 28,
     crashed_at = 29,
     polled_late = 30,     ///< later than setting poll_limit; detail: milliseconds
-    stop_confirmed = 31,  ///< by the motor; detail: milliseconds since it was asked to stop
+    stop_confirmed = 31,  ///< by the motor; detail: milliseconds since the stop was requested
     motor_fault = 32,
-    set_points_changed = 33,  ///< detail: how many in bits 7..0, by whom (Origin) in bits 15..8
-    set_points_taken = 34,    ///< the sequence goes by them now; detail: how many
-    set_points_dropped =
-        35,              ///< detail: a bit for each that has its default because nothing that was kept fits
-    recipe_loaded = 36,  ///< 36 to 38: detail: its number in bits 7..0, by whom in bits 15..8
+    set_points_changed = 33,  ///< detail: number in bits 7..0, origin (Origin) in bits 15..8
+    set_points_taken = 34,    ///< now in force; detail: number
+    set_points_dropped = 35,  ///< detail: bit mask of those with their default because no stored value fits
+    recipe_loaded = 36,       ///< 36 to 38: detail: its number in bits 7..0, origin in bits 15..8
     recipe_saved = 37,
     recipe_deleted = 38,
 };
@@ -138,13 +137,13 @@ constexpr std::string_view name_of(Event event) {
                                   {recipe_deleted, "recipe deleted"}});
 }
 
-/// Of bits 7..0 of a log entry's second register.
+/// For bits 7..0 of a log entry's second register.
 constexpr std::string_view name_of_log_code(std::uint8_t code) {
     constexpr std::uint8_t kFirstEvent = 16;
     return code < kFirstEvent ? name_of(static_cast<SafeReason>(code)) : name_of(static_cast<Event>(code));
 }
 
-/// The same for programs that search and count: lower_case, and never another one. Empty: no such code.
+/// The same as a stable lower_case key for programs. Empty: no such code.
 constexpr std::string_view key_of_log_code(std::uint8_t code) {
     constexpr std::string_view kKeys[]{"runs",
                                        "not_started",
@@ -188,7 +187,7 @@ constexpr std::string_view key_of_log_code(std::uint8_t code) {
     return code < sizeof kKeys / sizeof *kKeys ? kKeys[code] : "";
 }
 
-/// Who changed set-points.
+/// Origin of a change of set-points.
 enum class Origin : std::uint8_t { user_port = 1, panel = 2, modbus = 3, mqtt = 4, scenario = 5 };
 
 constexpr std::string_view name_of(Origin origin) {
@@ -200,7 +199,7 @@ constexpr std::string_view name_of(Origin origin) {
                                     {scenario, "the scenario"}});
 }
 
-/// What SET_POINT_WRITE asks for.
+/// Kinds of requests to SET_POINT_WRITE.
 enum class SetPointRequest : std::uint8_t {
     change = 1,
     save_recipe = 2,  ///< the wanted values
@@ -212,7 +211,7 @@ enum class SetPointRequest : std::uint8_t {
 /// LINK: the line between gateway and motor.
 enum class Link : std::uint8_t {
     down = 0,            ///< no answer; orders are discarded
-    starting = 1,        ///< the drive answers and is being brought in step; orders are discarded
+    starting = 1,        ///< the drive answers and is being synchronized; orders are discarded
     unacknowledged = 2,  ///< works again after it was down; ERROR stays until "reset error" (01h) has been
                          ///< executed
     up = 3,
@@ -224,30 +223,30 @@ constexpr std::string_view name_of(Link link) {
         link, {{down, "down"}, {starting, "starting"}, {unacknowledged, "not acknowledged"}, {up, "up"}});
 }
 
-/// Bits 7..0 of UPLOAD_STATE: where a writing into the store stands.
+/// Bits 7..0 of UPLOAD_STATE: phase of a write into the store.
 enum class StorePhase : std::uint8_t {
     idle = 0,
-    erasing = 1,    ///< begun; pieces can come soon
-    receiving = 2,  ///< takes pieces
+    erasing = 1,    ///< begun; pieces are accepted soon
+    receiving = 2,  ///< accepts pieces
     closing = 3,    ///< programs the rest, reads everything back, checks it, makes it the current one
-    done = 4,       ///< what was written is the current content
+    done = 4,       ///< the written data are the current content
     failed = 5,     ///< nothing has changed
 };
 
 /// The detail of Event::motor_fault: why the driver of a MIDI drive reports ERROR.
 enum class DriveFault : std::uint8_t {
     none = 0,
-    link_lost = 1,    ///< no answer, or none that could be read
-    restarted = 2,    ///< the drive started anew by itself
+    link_lost = 1,    ///< no readable answer
+    restarted = 2,    ///< the drive restarted by itself
     tripped = 3,      ///< the drive's own fault: its power is off until "reset error"
     end_stop = 4,     ///< stopped by an end-stop on its way
-    not_arrived = 5,  ///< stands, and not where it was sent; or stopped running by itself
-    refused = 6,      ///< the drive did not take a command
-    unclear = 7,      ///< it is not known whether the drive took a command; it was told to stop
-    bad_value = 8,    ///< an order that only showed at run time that the drive cannot do it
-    unreadable = 9,   ///< answers came, and each was damaged
+    not_arrived = 5,  ///< at standstill elsewhere than commanded; or a run has ended by itself
+    refused = 6,      ///< the drive refused a command
+    unclear = 7,      ///< unknown whether the drive executed a command; it was told to stop
+    bad_value = 8,    ///< an order that proved impossible for the drive only at run time
+    unreadable = 9,   ///< all answers were damaged
     several = 10,     ///< more than one drive answers to the address
-    jumped = 11,      ///< the position changed in motion as that does not explain
+    jumped = 11,      ///< the position changed in motion in a way that does not fit it
 };
 
 constexpr std::string_view name_of(DriveFault fault) {
@@ -268,7 +267,7 @@ constexpr std::string_view name_of(DriveFault fault) {
          {jumped, "its position jumped in mid-motion: another master, or a hand; find the origin again"}});
 }
 
-/// What COMMAND takes.
+/// Values of COMMAND.
 enum class Command : std::uint8_t {
     run = 1,
     stop = 2,
@@ -279,7 +278,7 @@ enum class Command : std::uint8_t {
     reset = 7,
     keep_settings = 8,
     clear_log = 9,
-    give_up_stop = 10,  ///< a stop that the motor has not confirmed is not repeated any more
+    give_up_stop = 10,  ///< ends the repetition of an unconfirmed stop
     upload_begin = 16,
     upload_commit = 17,
     upload_abort = 18,
@@ -359,7 +358,7 @@ enum class Result : std::uint8_t {
     stop_unconfirmed = 43,
 };
 
-/// One line for the user, "the sequence is not stopped; stop it first".
+/// One-line message, "the sequence is not stopped; stop it first".
 constexpr std::string_view describe(Result result) {
     using enum Result;
     return word_of<Result>(
@@ -421,10 +420,10 @@ constexpr std::string_view describe(Result result) {
         "unknown result");
 }
 
-/// FIRMWARE_STATE: the phase in bits 7..0, of a failed one a Result in bits 15..8.
+/// FIRMWARE_STATE: the phase in bits 7..0, after a failure a Result in bits 15..8.
 enum FirmwareBit : std::uint32_t {
     kFirmwareSlot = 1U << 16,       ///< the one that runs
-    kFirmwareConfirmed = 1U << 17,  ///< the one that runs is
+    kFirmwareConfirmed = 1U << 17,  ///< the running one is confirmed
 };
 
 /// FIRMWARE_SLOT.
@@ -436,8 +435,8 @@ enum FirmwareSlotBit : std::uint32_t {
 
 /// PASSWORD_STATE.
 enum class PasswordState : std::uint8_t {
-    none = 0,    ///< the port asks for none
-    wanted = 1,  ///< this client has not given it: it may read, and stop, safe and hold
+    none = 0,    ///< the port requires none
+    wanted = 1,  ///< this client has not given it: only reads, stop, safe and hold are allowed
     given = 2,
 };
 
@@ -447,7 +446,7 @@ enum OperatorBit : std::uint32_t {
     kOperatorIsYou = 1U << 8,        ///< this client, or another one of its user
     kOperatorTookFromYou = 1U << 9,  ///< it took over from this client
 };
-/// By which way the operator came; what OPERATOR_PEER is then.
+/// The operator's connection; it determines OPERATOR_PEER.
 enum class OperatorWay : std::uint8_t {
     nobody = 0,
     unix_socket = 1,  ///< the user's number
@@ -458,10 +457,10 @@ enum class OperatorWay : std::uint8_t {
     plant = 6,
     other = 7,
 };
-/// Details of seat_taken where it is a client's.
+/// Details of seat_taken if a client has the seat.
 constexpr std::uint16_t kSeatOfAnother = 0;
 constexpr std::uint16_t kSeatTakenOver = 3;  ///< from this client
-/// What OPERATE is written.
+/// Values written to OPERATE.
 enum class Operating : std::uint8_t { take = 1, take_over = 2, give_back = 3 };
 
 /// Bits of STATUS.
@@ -490,7 +489,7 @@ constexpr RunState run_state_of(std::uint32_t status) {
     return static_cast<RunState>(status & kRunState);
 }
 
-/// FORCE_IN and FORCE_OUT: levels in bits 7..0, which signals are forced in bits 15..8.
+/// FORCE_IN and FORCE_OUT: levels in bits 7..0, mask of forced signals in bits 15..8.
 struct Force {
     std::uint8_t mask = 0;
     std::uint8_t levels = 0;
@@ -500,7 +499,7 @@ struct Force {
     }
     constexpr std::uint32_t in_register() const { return std::uint32_t{mask} << 8 | levels; }
 
-    /// `real` with the forced levels in their place.
+    /// `real` with the forced levels applied.
     constexpr std::uint8_t over(std::uint8_t real) const {
         return static_cast<std::uint8_t>((real & ~unsigned{mask}) | (unsigned{levels} & mask));
     }

@@ -9,7 +9,7 @@
 #include "registers/vocabulary.h"
 #include "set_points/record.h"
 
-/// What is written to a gateway's SET_POINT_WRITE, and what it shows of recipes (REGISTERS.md, Set-points).
+/// Requests to a gateway's SET_POINT_WRITE, and its view of recipes (REGISTERS.md, Set-points).
 namespace nplc::set_points {
 
 struct NewValue {
@@ -19,26 +19,26 @@ struct NewValue {
 
 inline constexpr std::size_t kLongestRecipeName = 15;
 
-/// Which recipe: one to save or put by its name; one to load or delete by its name, its number, or both,
-/// which must then belong together.
+/// Identifies a recipe: for saving or putting by its name; for loading or deleting by its name, its number,
+/// or both, which must then belong together.
 struct RecipeRef {
     std::uint8_t number = 0;
     std::string_view name{};
 };
 
-/// `values` for a change and put_recipe, `recipe` for all but a change.
+/// `values` for a change and put_recipe, `recipe` for everything except a change.
 std::vector<std::uint8_t> encode_request(const Record& record, registers::gateway::SetPointRequest kind,
                                          std::vector<NewValue> values, const RecipeRef& recipe = {});
-/// By which the gateway knows the same request again, and tells how it ended. Without it: 0.
+/// Sets the number by which the gateway recognizes a repeated request and reports its outcome. Without it: 0.
 void give_number(std::span<std::uint8_t> request, std::uint32_t own_number);
 
 struct Recipe {
     std::uint8_t number = 0;
     std::string name;
-    std::vector<NewValue> values;  ///< those that the record has with the same name, unit and a fitting range
+    std::vector<NewValue> values;  ///< those that match a set-point of the record in name, unit and range
 };
 
-/// From the bytes of a recipe's view; an empty name: there is none.
+/// Decodes a recipe's view; an empty name: there is none.
 Recipe decode_recipe(std::span<const std::uint8_t> bytes, const Record& record, std::uint8_t number);
 
 inline constexpr std::size_t kRecipeBytes = 160;

@@ -6,16 +6,22 @@
 
 #include "set_points/record.h"
 
-/// Values of set-points as people write them.
+/// Text form of set-point values.
 namespace nplc::set_points {
 
-/// In the unit, as short a number as tells it from its neighbours: 80, not 79.998.
+/// In the unit, with the fewest digits that distinguish adjacent values: 80, not 79.998.
 double shown_value(const SetPoint& point, std::int32_t value);
-/// The nearest steps to a number in the unit; nothing: 32 bits do not hold it.
+/// The nearest raw value for a number in the unit; empty if it does not fit in 32 bits.
 std::optional<std::int32_t> steps_of(const SetPoint& point, double number);
-/// Digits behind the point that a value of it needs: those of STEP, or those that tell neighbours apart; 6 at
-/// the most, and so few that every value of the range times 10^digits fits into 32 bits.
+/// Decimals that its values need: those of STEP, or those that distinguish adjacent values; at most 6, and so
+/// few that every value of the range times 10^decimals fits in 32 bits.
 unsigned decimals_of(const SetPoint& point);
+/// A value is on the grid of STEP if it is what a step in the unit, from the lower end as it was written on,
+/// rounds to. True without STEP.
+bool is_on_grid(const SetPoint& point, std::int32_t value);
+/// "1200 or 1300": the steps next to a value that is on none, in the unit; only the one before it where the
+/// other is outside of the range.
+std::string grid_beside(const SetPoint& point, std::int32_t value);
 /// "80 mm": in the unit, with as many digits as tell it from its neighbours.
 std::string text_of(const SetPoint& point, std::int32_t value);
 /// "10 mm to 200 mm in steps of 0.1 mm"
@@ -23,12 +29,12 @@ std::string range_text(const SetPoint& point);
 
 struct Reading {
     std::int32_t value = 0;
-    std::string error;  ///< what is wrong, with the name and the limits; empty if nothing
+    std::string error;  ///< the error, with the name and the limits; empty if valid
 };
 
 /// "80", "80 mm", "80mm": the unit of the set-point, or none; of times ms and s too. Refused: what is no
-/// number, another unit, what lies outside of the range, a count that is no whole number, and what is no
-/// whole number of the STEP from the lower end on.
+/// number, another unit, what lies outside of the range, a count that is no whole number, and what is not on
+/// the grid.
 Reading read_value(const SetPoint& point, std::string_view text);
 
 }  // namespace nplc::set_points

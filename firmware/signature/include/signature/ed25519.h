@@ -12,7 +12,7 @@ inline constexpr std::size_t kSignatureBytes = 64;
 using PublicKey = std::array<std::uint8_t, kPublicKeyBytes>;
 using Signature = std::array<std::uint8_t, kSignatureBytes>;
 
-/// Called every so often in what takes long: a second on a Cortex-M0 of 16 MHz.
+/// Called regularly during long computations: they take a second on a Cortex-M0 of 16 MHz.
 using Meanwhile = void (*)();
 
 /// The message was signed by the key's owner (Ed25519, RFC 8032 §5.1.7, without cofactor, S below the

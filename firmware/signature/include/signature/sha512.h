@@ -10,11 +10,11 @@ namespace nplc::signature {
 inline constexpr std::size_t kSha512Bytes = 64;
 using Digest512 = std::array<std::uint8_t, kSha512Bytes>;
 
-/// SHA-512 (FIPS 180-4) of bytes that come piece by piece.
+/// SHA-512 (FIPS 180-4) of bytes that are added piece by piece.
 class Sha512 {
   public:
     void add(std::span<const std::uint8_t> bytes);
-    /// Of all that was added; nothing may be added any more.
+    /// The digest of all added bytes; nothing may be added afterwards.
     Digest512 end();
 
   private:

@@ -7,19 +7,19 @@
 
 namespace nplc::store {
 
-/// What must be true of bytes before a slot holding them becomes the current one. They are handed over in
-/// order, in pieces, as they read back from the storage.
+/// Checks the bytes of a slot before it becomes the current one. They are passed in order, in pieces, as read
+/// back from the storage.
 class Content {
   public:
     virtual void begin() = 0;
     virtual base::Status take(std::span<const std::uint8_t> bytes) = 0;
-    virtual base::Status end() = 0;  ///< all bytes were handed over
+    virtual base::Status end() = 0;  ///< all bytes were passed
 
   protected:
     ~Content() = default;
 };
 
-/// Whatever reads back as it was sent.
+/// Accepts any bytes.
 class AnyContent final : public Content {
   public:
     void begin() override {}

@@ -8,20 +8,20 @@
 #include "base/result.h"
 #include "ports/storage.h"
 
-/// How a slot lies in the storage: header, mark and content, each from a program unit's start, and in its
-/// last unit a byte that is no longer FFh once another slot has taken its place.
+/// Layout of a slot in the storage: header, mark and content, each aligned to a program unit; the last unit
+/// has a byte that is no longer FFh once another slot has replaced this one.
 namespace nplc::store {
 
 enum class Kind : std::uint8_t { table = 1, settings = 2, set_points = 3 };
 
-/// Where two slots lie, one behind the other.
+/// Two adjacent slots.
 struct Area {
     std::uint32_t begin = 0;       ///< an erase block's first byte
     std::uint32_t slot_bytes = 0;  ///< a multiple of erase_block
 };
 
 struct Header {
-    Kind kind = Kind::table;
+    Kind kind{};
     std::uint32_t sequence = 0;  ///< the later writing has the higher one, modulo 2^32
     std::uint32_t length = 0;    ///< bytes of content
     std::uint32_t crc = 0;       ///< of the content, base/crc32.h
@@ -33,17 +33,17 @@ inline constexpr std::size_t kMarkBytes = 8;
 inline constexpr std::uint32_t kLargestUnit = 256;
 
 std::array<std::uint8_t, kHeaderBytes> encode(const Header& header);
-/// What makes a slot valid, programmed last. It repeats the header's check sum.
+/// The mark makes a slot valid and is programmed last. It repeats the header's check sum.
 std::array<std::uint8_t, kMarkBytes> mark_for(std::span<const std::uint8_t, kHeaderBytes> header);
 /// Error: damaged.
 base::Result<Header> decode(std::span<const std::uint8_t, kHeaderBytes> bytes);
 
-/// True if `sequence` was given out after `other`.
+/// True if `sequence` is newer than `other`.
 constexpr bool is_later(std::uint32_t sequence, std::uint32_t other) {
     return static_cast<std::int32_t>(sequence - other) > 0;
 }
 
-/// Addresses inside one area on one storage. Only for what is_possible() says yes to.
+/// Addresses within one area on one storage. Needs is_possible().
 class Layout {
   public:
     Layout(const ports::StorageGeometry& geometry, const Area& area) : geometry_(geometry), area_(area) {}
@@ -58,7 +58,7 @@ class Layout {
     std::uint32_t slot_bytes() const { return area_.slot_bytes; }
 
     std::uint32_t whole_units(std::size_t bytes) const;
-    /// How much of `bytes` from `address` on one programming may hold.
+    /// Number of bytes from `address` on that one program operation can write.
     std::uint32_t one_programming(std::uint32_t address, std::uint32_t bytes) const;
     std::uint32_t erase_block() const { return geometry_.erase_block; }
 

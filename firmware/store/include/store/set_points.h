@@ -8,8 +8,8 @@
 #include "registers/set_points.h"
 #include "store/slots.h"
 
-/// The values of set-points and the recipes of them, as they are stored: all of it one content of a slot, so
-/// that a power cut leaves the old or the new one whole.
+/// Stored set-point values and recipes: one content of a slot, so that after a power cut either the old or
+/// the new one is complete.
 namespace nplc::store {
 
 #ifndef NPLC_RECIPES
@@ -18,14 +18,14 @@ namespace nplc::store {
 inline constexpr std::size_t kRecipes = NPLC_RECIPES;
 inline constexpr std::size_t kRecipeNameBytes = 16;
 
-/// A value of a set-point, whatever table has it.
+/// A set-point's value, independent of a table.
 struct KeptValue {
     std::uint32_t name_hash = 0;
     std::int32_t value = 0;
     std::uint8_t unit = 0;
 };
 
-/// Up to 16 values in the bytes that are stored.
+/// Up to 16 values, in their stored form.
 class ValueSet {
   public:
     static constexpr std::size_t kValueBytes = 9;
@@ -33,7 +33,7 @@ class ValueSet {
 
     explicit ValueSet(std::uint8_t* bytes) : bytes_(bytes) {}
     void clear();
-    /// No room beyond kMost.
+    /// Ignored beyond kMost.
     void add(const KeptValue& value);
     /// The value of this entry if it has one of the same name and unit within the range.
     bool find(const registers::set_points::Entry& entry, std::int32_t& value) const;
@@ -46,7 +46,7 @@ class ValueSet {
     std::uint8_t* bytes_;
 };
 
-/// All that is stored, in the bytes of the store.
+/// The whole stored content, in its stored form.
 class SetPointImage {
   public:
     static constexpr std::size_t kHeaderBytes = 8;
@@ -55,22 +55,22 @@ class SetPointImage {
 
     SetPointImage() { clear(); }
     void clear();
-    /// Its bytes are those of this firmware.
+    /// The bytes have this firmware's format.
     bool is_sound() const;
     std::span<std::uint8_t> bytes() { return bytes_; }
 
     ValueSet wanted() { return ValueSet(&bytes_[kHeaderBytes]); }
-    /// Of the recipe that was loaded last, 1 and on; 0: none.
+    /// The recipe that was loaded last, 1 and on; 0: none.
     std::uint8_t active() const { return bytes_[2]; }
     void set_active(std::uint8_t recipe) { bytes_[2] = recipe; }
-    /// `recipe` 1 to kRecipes. Without a name there is none.
+    /// `recipe` 1 to kRecipes. An empty name means no recipe.
     std::span<std::uint8_t> recipe(std::size_t recipe) {
         return std::span(bytes_).subspan(kHeaderBytes + ValueSet::kBytes + (recipe - 1) * kRecipeBytes,
                                          kRecipeBytes);
     }
     bool has_recipe(std::size_t number) { return recipe(number)[0] != 0; }
-    /// The recipe of this name, ended by 0; of an empty name the first one that is free. Case counts not. 0:
-    /// there is none.
+    /// The recipe with this name, ended by 0, case-insensitive; for an empty name the first free one. 0:
+    /// none.
     std::uint8_t recipe_named(const std::uint8_t* name);
     ValueSet values_of(std::size_t number) { return ValueSet(recipe(number).data() + kRecipeNameBytes); }
 
@@ -78,19 +78,21 @@ class SetPointImage {
     std::array<std::uint8_t, kBytes> bytes_;
 };
 
-/// The image in two slots of its own, written as a whole.
+/// Stores the image in two slots of its own, as a whole.
 class SetPointStore {
   public:
     SetPointStore(ports::Storage& storage, const Area& area)
         : slots_(storage, area, Kind::set_points, content_) {}
 
-    /// For the start-up. Error damaged: what was stored is not whole, and an older image or none stands in.
+    /// For the start-up. Error damaged: the stored image is damaged, and an older one or an empty one is
+    /// used.
     base::Status mount();
     SetPointImage& image() { return image_; }
-    /// What was changed in image() since is dropped. Errors as mount(), then it is empty.
+    /// Restores image() from the store. Errors as mount(), then it is empty.
     base::Status drop_changes();
 
-    /// Begins to store image(); poll() until phase() is `done` or `failed`, and leave it alone.
+    /// Begins to store image(); call poll() until phase() is `done` or `failed`, and do not change it
+    /// meanwhile.
     base::Status save() { return slots_.begin(); }
     void poll();
     base::Instant next_poll(base::Instant now) {

@@ -5,18 +5,18 @@
 
 namespace nplc::store {
 
-/// The settings in two slots of their own, written as a whole.
+/// Stores the settings in two slots of their own, as a whole.
 class SettingsStore {
   public:
     SettingsStore(ports::Storage& storage, const Area& area)
         : slots_(storage, area, Kind::settings, content_) {}
 
-    /// For the start-up. Without stored settings the initial ones; with `damaged` if there were some and none
-    /// is whole, or bad_setting if they are not this firmware's: then the caller goes on with initial ones
-    /// and says so. Other errors as Slots::mount.
+    /// For the start-up. Returns the initial settings if none are stored; `damaged` if some were stored and
+    /// none is complete, or bad_setting if they are not this firmware's: the caller then continues with the
+    /// initial ones and reports it. Other errors as Slots::mount.
     base::Result<SettingValues> mount();
 
-    /// Begins to store; poll() until phase() is `done` or `failed`.
+    /// Begins to store; call poll() until phase() is `done` or `failed`.
     base::Status save(const SettingValues& values);
     void poll();
     base::Instant next_poll(base::Instant now);

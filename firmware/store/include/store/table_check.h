@@ -7,7 +7,7 @@
 
 namespace nplc::store {
 
-/// What a table's terms must be beside well formed, such as orders that the motor has.
+/// A further condition for a table's terms, such as orders that the motor supports.
 class TermCheck {
   public:
     virtual bool accepts(sequencer::TermView term) const = 0;
@@ -16,8 +16,8 @@ class TermCheck {
     ~TermCheck() = default;
 };
 
-/// The rules of Table::load on what is to become the stored table; with `terms`, not_for_motor for one that
-/// it does not accept. What follows the end term is not looked at.
+/// Applies the rules of Table::load to the table to be stored; with `terms`, error not_for_motor for a term
+/// that it does not accept. Bytes after the end term are not checked.
 class TableCheck final : public Content {
   public:
     explicit TableCheck(const TermCheck* terms = nullptr) : terms_(terms) {}
@@ -26,7 +26,7 @@ class TableCheck final : public Content {
     base::Status take(std::span<const std::uint8_t> bytes) override;
     base::Status end() override;
 
-    /// The term, counted from 0, of the error that take() or end() answered last.
+    /// The term, counted from 0, of the last error of take() or end().
     std::uint16_t fault_term() const { return fault_term_; }
 
   private:

@@ -8,24 +8,24 @@
 
 namespace nplc::toml_files {
 
-/// A value of a TOML file with the line it stands in. The library that reads it takes long to compile and is
-/// known in toml_file.cpp alone.
+/// A value of a TOML file with its line. The parser library takes long to compile and is used in
+/// toml_file.cpp only.
 struct Value {
     enum class Kind : std::uint8_t { none, boolean, integer, real, text, list, table, other };
     Kind kind = Kind::none;
     int line = 0;
     bool boolean = false;
     std::int64_t integer = 0;
-    double real = 0;  ///< of an integer too
+    double real = 0;  ///< also for an integer
     std::string text{};
     std::vector<Value> items{};
     std::vector<std::pair<std::string, Value>> entries{};
 
-    /// Of a table; nullptr if the key is not there.
+    /// For a table; nullptr if the key is missing.
     const Value* find(std::string_view key) const;
 };
 
-/// What a text says, or why it is not TOML and in which line.
+/// A parsed text, or a TOML error with its line.
 struct File {
     Value root{};
     int line = 0;

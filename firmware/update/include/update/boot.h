@@ -5,7 +5,7 @@
 
 #include "update/layout.h"
 
-/// What a loader does at each start.
+/// The decision of a boot loader at each start.
 namespace nplc::update {
 
 struct Loader {
@@ -13,7 +13,7 @@ struct Loader {
     const Layout& layout;
     std::uint32_t board;
     const signature::PublicKey& key;
-    signature::Meanwhile meanwhile;  ///< feeds a watchdog that may run
+    signature::Meanwhile meanwhile;  ///< feeds a watchdog that may be running
 };
 
 struct Start {
@@ -21,8 +21,8 @@ struct Start {
     bool on_trial;
 };
 
-/// The slot to start; an image on trial has been noted as tried before this returns. Nothing: no slot holds
-/// an image that is whole and signed.
+/// The slot to start; a start on trial has been recorded before this returns. Empty: no slot has a complete
+/// and signed image.
 std::optional<Start> choose(const Loader& loader);
 
 }  // namespace nplc::update

@@ -8,9 +8,9 @@
 namespace nplc::update {
 
 inline constexpr unsigned kSlots = 2;
-inline constexpr std::uint32_t kLargestUnit = 8;  ///< program unit of a storage that this can go by
+inline constexpr std::uint32_t kLargestUnit = 8;  ///< largest supported program unit of a storage
 
-/// Two slots, one behind the other, on a storage that the chip also runs code from.
+/// Two adjacent slots on a storage from which the chip also executes code.
 class Layout {
   public:
     /// `begin`: of slot 0 in the storage; `chip_address`: of the storage's first byte.
@@ -31,16 +31,16 @@ class Layout {
         return marks(slot) + number * unit_;
     }
 
-    /// What the slot's image is linked for.
+    /// Link address of the slot's image.
     constexpr std::uint32_t address(unsigned slot) const { return chip_address_ + image(slot); }
-    /// Bytes that header and image may have together.
+    /// Maximum size of header and image together.
     constexpr std::uint32_t capacity() const { return slot_bytes_ - block_; }
     constexpr std::uint32_t block() const { return block_; }
     constexpr std::uint32_t unit() const { return unit_; }
-    /// How much of `bytes` from `address` on one programming may hold.
+    /// Number of bytes from `address` on that one program operation can write.
     std::uint32_t one_programming(std::uint32_t address, std::uint32_t bytes) const;
 
-    /// The header is one for this slot of this board.
+    /// The header is valid for this slot of this board.
     bool fits(const ImageHeader& header, unsigned slot, std::uint32_t board) const;
 
   private:

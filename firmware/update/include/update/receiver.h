@@ -12,11 +12,12 @@ namespace nplc::update {
 using Phase = registers::gateway::StorePhase;
 using Result = registers::gateway::Result;
 
-/// The application's half: takes an image into the slot that it does not run from, and confirms its own.
+/// The application's part of the update: writes an image into the slot that it does not run from, and
+/// confirms its own.
 ///
-/// Receiving: begin(), write() pieces in order while `receiving`, finish(), and poll() all the time until
+/// Receiving: begin(), write() pieces in order while `receiving`, finish(), and poll() continuously until
 /// `done` or `failed`. Each call does at most one operation of the storage or one read of
-/// Storage::kReadAtOnce bytes. What was received is started at the chip's next start, not before.
+/// Storage::kReadAtOnce bytes. The received image is started at the chip's next start.
 class Receiver {
   public:
     static constexpr std::size_t kLargestPiece = 120;
@@ -31,23 +32,23 @@ class Receiver {
     const SlotView& slot(unsigned number) const { return views_[number & 1U]; }
     /// Of the running image.
     bool is_confirmed() const { return views_[running_].marks.confirmed; }
-    /// The running image is healthy. Once poll() has noted that, is_confirmed().
+    /// The running image is healthy. is_confirmed() is true once poll() has recorded that.
     void confirm();
 
-    /// Erases in the other slot what `bytes` take. no_space, busy; not_confirmed: it is what an image on
-    /// trial falls back to.
+    /// Erases the other slot for `bytes`. Errors: no_space, busy; not_confirmed: the other slot is the
+    /// fallback of an image on trial.
     Result begin(std::uint32_t bytes);
-    /// The piece for `offset`, a multiple of 4 bytes, of the program unit but for the last: all of it is
-    /// taken or nothing. One that came before is taken again if it is the same. busy: no room yet, the same
-    /// again later; no_upload, bad_offset, bad_length, no_space.
+    /// The piece at `offset`, a multiple of 4 bytes, and of the program unit except for the last: accepted as
+    /// a whole or not at all. A repeated piece is accepted if it is the same. Errors: busy: no room yet,
+    /// retry later; no_upload, bad_offset, bad_length, no_space.
     Result write(std::uint32_t offset, std::span<const std::uint8_t> bytes);
-    /// `crc` of all `length` bytes as the sender knows them. busy, no_upload, wrong_check.
+    /// `crc` of all `length` bytes, as computed by the sender. Errors: busy, no_upload, wrong_check.
     Result finish(std::uint32_t length, std::uint32_t crc);
     void abandon();
     void poll();
 
     Phase phase() const { return phase_; }
-    /// Only if phase() is `failed`: what finish() answers, storage_failed, bad_firmware (no header, or one
+    /// Valid if phase() is `failed`: the errors of finish(), storage_failed, bad_firmware (no header, or one
     /// for the other slot), other_board, not_newer.
     Result error() const { return error_; }
     std::uint32_t received() const { return received_; }
@@ -74,8 +75,8 @@ class Receiver {
     Phase phase_ = Phase::idle;
     Closing closing_ = Closing::checking;
     Result error_ = Result::done;
-    bool waiting_ = false;     ///< for an operation of ours
-    bool confirming_ = false;  ///< with what is waited for
+    bool waiting_ = false;     ///< for the end of a storage operation that was started here
+    bool confirming_ = false;  ///< that operation is the confirmation
     std::array<SlotView, kSlots> views_;
 
     std::uint32_t room_ = 0;    ///< bytes, as announced

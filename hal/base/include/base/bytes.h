@@ -4,7 +4,7 @@
 
 namespace nplc::base {
 
-/// Low byte first, as FlexMAC, MacTalk and the sequence table have it.
+/// Little-endian, as in FlexMAC, MacTalk and the sequence table.
 constexpr std::uint16_t load_u16(const std::uint8_t* p) {
     return static_cast<std::uint16_t>(p[0] | (p[1] << 8));
 }

@@ -4,7 +4,7 @@
 
 namespace nplc::base {
 
-/// A value or an Error. `value()` may only be asked after `ok()`, `error()` only without it.
+/// A value or an Error. `value()` needs `ok()`, `error()` needs `!ok()`.
 template <class T>
 class [[nodiscard]] Result {
   public:

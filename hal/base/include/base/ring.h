@@ -5,8 +5,7 @@
 
 namespace nplc::base {
 
-/// First in, first out, in storage of its own. `push` answers false when full; `front` and `pop` need
-/// `!empty()`.
+/// FIFO with fixed storage. `push` returns false when full; `front` and `pop` need `!empty()`.
 template <class T, std::size_t Capacity>
 class Ring {
   public:

@@ -8,17 +8,17 @@ namespace nplc::base {
 using Microseconds = std::chrono::duration<std::int64_t, std::micro>;
 using Milliseconds = std::chrono::duration<std::int64_t, std::milli>;
 
-/// A point on the gateway's own monotonic time line; only differences mean anything.
+/// A point on the gateway's own monotonic time line; only differences are meaningful.
 struct Monotonic {
     using duration = Microseconds;
 };
 using Instant = std::chrono::time_point<Monotonic, Microseconds>;
 
-/// As a deadline: nothing is to be done until something arrives.
+/// As a deadline: no work until something arrives.
 inline constexpr Instant kNever = Instant::max();
 
-// Compared as the numbers that they are. Otherwise chrono's <=> is chosen, whose arguments and answer go
-// through memory: 20 bytes of a microcontroller's flash each time.
+// Compares the counts directly. Chrono's <=> would pass arguments and result through memory, 20 bytes of a
+// microcontroller's flash per comparison.
 constexpr bool operator<(Instant a, Instant b) {
     return a.time_since_epoch().count() < b.time_since_epoch().count();
 }
@@ -34,7 +34,7 @@ constexpr bool operator>=(Instant a, Instant b) {
 
 }  // namespace nplc::base
 
-/// Where they are found from all of the project's namespaces.
+/// Visible in all of the project's namespaces.
 namespace nplc {
 
 constexpr bool operator<(base::Microseconds a, base::Microseconds b) {

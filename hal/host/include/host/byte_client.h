@@ -11,32 +11,34 @@
 
 namespace nplc::host {
 
-/// Our end of a line to a device or to another program:
+/// The client end of a line to a device or to another program:
 ///     /dev/ttyUSB0, or any other path    a serial line: 8 data bits, no parity, 1 stop bit, no handshake
 ///     COM3                               the same on Windows
 ///     pty:PATH                           the same, of a program's pseudo-terminal; not on Windows
 ///     unix:PATH                          a stream socket in the file system; not on Windows
 ///     tcp:127.0.0.1:PORT                 a TCP socket of this machine, PORT 1..65535
-/// A serial line is locked (flock) for other programs as long as this object lives, or in turns with others
-/// that do the same, and its mode is put back afterwards.
+/// A serial line is locked (flock) against other programs while this object lives, or shared in turns with
+/// programs that do the same; its mode is restored afterwards.
 class ByteClient {
   public:
-    /// How a serial line is held; sockets have room for several clients, and Windows holds a line alone.
+    /// How a serial line is locked; sockets serve several clients, and Windows always locks a line
+    /// exclusively.
     enum class Holding : std::uint8_t {
         alone,
-        in_turns,  ///< others have it while this one rests
-        at_once,   ///< whoever holds it: for what cannot wait. Who holds it by a ByteClient gives way
+        in_turns,  ///< other programs use it during rest()
+        at_once,   ///< with priority over the present holder, for urgent messages; a holder that is a
+                   ///< ByteClient yields
     };
     struct Opened {
         std::unique_ptr<ByteClient> client;
-        std::string error;   ///< what went wrong and what to do, in one line; empty when it was opened
-        bool never = false;  ///< no such endpoint can be: it, or the speed, is written wrongly
-        bool full = false;   ///< somebody listens there, and has no room at the moment
+        std::string error;   ///< the error and its remedy, one line; empty when it was opened
+        bool never = false;  ///< the endpoint or the speed is invalid
+        bool full = false;   ///< the server has no room for another client at the moment
     };
-    /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows what
-    /// the port takes; sockets have none.
+    /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows any
+    /// speed of the port; not used for sockets.
     static Opened open(const std::string& endpoint, std::uint32_t baud, Holding holding = Holding::alone);
-    /// For the user: what an endpoint may be on this system, "a serial line's path such as ...".
+    /// For help texts: the forms of an endpoint on this system, "a serial line's path such as ...".
     static std::string forms();
 
     virtual ~ByteClient() = default;
@@ -44,23 +46,23 @@ class ByteClient {
     ByteClient& operator=(const ByteClient&) = delete;
 
     virtual const std::string& name() const = 0;
-    /// Takes all bytes. False if the other end is gone, or takes nothing for a second.
+    /// Writes all bytes. False if the other end is gone, or accepts nothing for a second.
     virtual bool write(std::span<const std::uint8_t> bytes) = 0;
-    /// Waits no longer than `wait` for a first byte; how many it put into `out`. Nothing if the other end is
+    /// Waits up to `wait` for a first byte; returns the number of bytes in `out`. Empty if the other end is
     /// gone.
     virtual std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) = 0;
-    /// Which other program the far end serves, "macreg (process 1234)"; empty where that cannot be told.
+    /// The other program that the far end serves, "macreg (process 1234)"; empty if unknown.
     virtual std::string other_client() const { return {}; }
     enum class Rest : std::uint8_t {
-        not_shared,   ///< the line has not been left, and no time has passed
-        held,         ///< the line is ours again; what came meanwhile was another's
-        still_taken,  ///< by another program, which `holder` names; rest again, or do without
+        not_shared,   ///< the line was not released, and no time has passed
+        held,         ///< the line is locked again; bytes received meanwhile belonged to other programs
+        still_taken,  ///< locked by another program, see `holder`; rest again, or give up
     };
-    /// Leaves a line that is held in turns to others for so long (5 ms at the least), and waits 100 ms at the
-    /// most to have it again. One that is taken at once is not left: from the first call on the others
+    /// Releases a line that is shared in turns for this time (at least 5 ms), and waits up to 100 ms to lock
+    /// it again. A line held with Holding::at_once is not released: from its first call on the other programs
     /// neither send nor read.
     virtual Rest rest(base::Microseconds /*time*/) { return Rest::not_shared; }
-    /// "macreg (process 1234)", of a line that is held by another program.
+    /// "macreg (process 1234)": the other program that holds the line.
     virtual std::string holder() const { return {}; }
     /// Monotonic.
     virtual base::Instant now() const = 0;

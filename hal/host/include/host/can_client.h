@@ -10,17 +10,17 @@
 
 namespace nplc::host {
 
-/// Our end of a CAN bus that the system has set up and taken up, as a client: it waits for frames.
+/// A client of a CAN bus that the system has configured and started: it waits for frames.
 class CanClient {
   public:
     struct Opened {
         std::unique_ptr<CanClient> client;
-        std::string error;   ///< what went wrong and what to do, in one line; empty when it was opened
-        bool never = false;  ///< this system has no such thing
+        std::string error;   ///< the error and its remedy, one line; empty when it was opened
+        bool never = false;  ///< not supported on this system
     };
     /// `interface`: can0, vcan0. Not on Windows.
     static Opened open(const std::string& interface);
-    /// For the user: how such a port is written here; empty where there are none.
+    /// For help texts: the form of such a port on this system; empty if not supported.
     static std::string forms();
 
     virtual ~CanClient() = default;
@@ -29,9 +29,10 @@ class CanClient {
 
     /// "can:can0"
     virtual const std::string& name() const = 0;
-    /// False if it was not taken within a second: the bus is down or off, or nobody else is on it.
+    /// False if the frame was not accepted within a second: the bus is down or off, or there is no other
+    /// node.
     virtual bool write(const ports::CanFrame& frame) = 0;
-    /// Waits no longer than `wait`; nothing if no frame came.
+    /// Waits up to `wait`; empty if no frame came.
     virtual std::optional<ports::CanFrame> read(base::Microseconds wait) = 0;
     virtual ports::CanState state() = 0;
     /// The interface does not exist any more.

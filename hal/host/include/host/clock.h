@@ -4,7 +4,7 @@
 
 namespace nplc::host {
 
-/// The time that a client's now() is of.
+/// The clock of all clients' now().
 base::Instant steady_now();
 
 }  // namespace nplc::host

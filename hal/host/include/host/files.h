@@ -10,20 +10,20 @@ namespace nplc::host {
 
 struct FileContent {
     std::string bytes;
-    std::string problem;  ///< why it cannot be read, without its name; empty when it was
+    std::string problem;  ///< why it cannot be read, without its name; empty on success
 };
 
-/// The file, block by block, until `take` has enough and answers false. What is wrong as in FileContent.
-/// Otherwise as read_file.
+/// Reads the file block by block until `take` returns false. Returns an error as in FileContent. Otherwise as
+/// read_file.
 std::string read_blocks(const std::string& name, std::size_t most,
                         const std::function<bool(std::string_view block)>& take);
 
-/// The whole file. One of more than `most` bytes is refused without reading it; of a device, which may have
-/// no end, no more than 4 MiB are taken. A pipe is read until its writers have closed it; one without a
+/// Reads the whole file. A file of more than `most` bytes is refused without reading it; from a device, which
+/// may have no end, at most 4 MiB are read. A pipe is read until its writers have closed it; one without a
 /// writer is refused.
 FileContent read_file(const std::string& name, std::size_t most);
 
-/// A new file, open for writing. Null, and errno, if something of this name is there, be it a link.
+/// Creates a new file for writing. Null with errno if the name exists, also as a link.
 std::FILE* create_file(const std::string& name);
 
 }  // namespace nplc::host

@@ -2,20 +2,18 @@
 
 namespace nplc::host {
 
-/// From now on the user's request to end the program (Ctrl-C, SIGTERM, a closed console window) is noted
-/// instead of carried out; a second one ends it at once. A pipe that nobody reads any more is an error of
-/// writing.
+/// From now on a request to end the program (Ctrl-C, SIGTERM, a closed console window) is only recorded; a
+/// second one ends it at once. A pipe without a reader is a write error.
 void note_interruptions();
 
-/// The same, and further ones do not end it either, until the program has ended: for who must stop a machine
-/// first. A terminal that hangs up counts as well.
+/// The same, but further requests do not end it either: for programs that must stop a machine first. A
+/// terminal hang-up counts as a request too.
 void hold_interruptions();
 
-/// The other way round, for as long as a program waits and has nothing to put in order: the first one ends
-/// it.
+/// Reverses this while a program only waits and has nothing to clean up: the first request ends it.
 void end_at_interruptions();
 
-/// Whether one came.
+/// Whether a request has been recorded.
 bool was_interrupted();
 
 }  // namespace nplc::host

@@ -11,8 +11,8 @@ struct LoopbackAddress {
     std::uint16_t port;
 };
 
-/// HOST:PORT of this machine only, HOST 127.x.x.x or localhost, PORT 0..65535; nothing for any other. These
-/// lines know no password: nobody outside of this machine may move a motor.
+/// HOST:PORT of this machine only, HOST 127.x.x.x or localhost, PORT 0..65535; empty for any other. These
+/// lines have no password: no other machine may move a motor.
 std::optional<LoopbackAddress> loopback_address(std::string_view where);
 
 }  // namespace nplc::host

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// Names of files are UTF-8 in our programs. A std::filesystem::path made of a std::string takes it for
-/// something else on Windows, so it is made and read here.
+/// File names are UTF-8 in these programs. On Windows std::filesystem::path interprets a std::string
+/// differently, so the conversion is done here.
 namespace nplc::host {
 
 inline std::filesystem::path path_of(std::string_view name) {

@@ -5,17 +5,17 @@
 
 namespace nplc::host {
 
-/// Bytes of the UTF-8 character that `text` begins with; 0 if it begins with none.
+/// Bytes of the UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t character_length(std::string_view text);
 
-/// Text of a user's for a terminal: control characters and what is no UTF-8 show as '?', one for each. Tabs
-/// stay.
+/// Makes a user's text safe for a terminal: each control character and each invalid UTF-8 byte becomes '?'.
+/// Tabs are kept.
 std::string printable(std::string_view text);
-/// The same, and line ends stay.
+/// The same, with line ends kept.
 std::string printable_lines(std::string_view text);
 
-/// Writes a message, of several lines perhaps, to standard error: printable, lines of over 1,000 bytes cut
-/// off. A failure to write is ignored.
+/// Writes a message, possibly of several lines, to standard error: printable, lines cut at 1,000 bytes. A
+/// write error is ignored.
 void complain(std::string_view message);
 
 }  // namespace nplc::host

@@ -9,28 +9,28 @@
 
 namespace nplc::host {
 
-/// Whether it begins with the byte order mark of UTF-16 and a letter of ASCII, as no raw table does.
+/// Whether it begins with a UTF-16 byte order mark and an ASCII letter, which a raw table never does.
 bool is_marked_utf16(std::string_view bytes);
 
-/// Makes of a file's bytes the text in it, whichever editor wrote it: no byte order mark in front, no 1Ah
-/// (the end of DOS's files) behind, LF at the end of a line, also where CR alone ends all of them. Answers
-/// why it is no text, and how to mend it, or nothing.
+/// Normalizes a file's bytes to text, whichever editor wrote it: removes a byte order mark and a final 1Ah
+/// (end of a DOS file), and ends lines with LF, also where CR alone ends all of them. Returns why it is not
+/// text, with the remedy, or an empty string.
 std::string make_text(std::string& bytes);
 
-/// The same of a text that comes in blocks and may be long: gives it on in lines without their ends, and
-/// lines of more than kLongestPiece in pieces.
+/// The same for a text that comes in blocks and may be long: passes on lines without their ends, and lines
+/// longer than kLongestPiece in pieces.
 class TextPieces {
   public:
     static constexpr std::size_t kLongestPiece = 65'536;
-    /// Answers whether it wants more.
+    /// Returns false to stop.
     using Take = std::function<bool(std::string_view piece, bool ends_line)>;
 
     explicit TextPieces(Take take) : take_(std::move(take)) {}
 
-    /// False: nobody wants more, or it is no text.
+    /// False: stopped by `Take`, or not a text.
     bool add(std::string_view block);
     void finish();
-    /// Why it is no text, or nothing.
+    /// Why it is not a text; empty if it is.
     const std::string& problem() const { return problem_; }
 
   private:
@@ -42,12 +42,12 @@ class TextPieces {
     Take take_;
     std::string held_;
     std::string problem_;
-    std::string_view line_ends_{};  ///< empty: not known yet
+    std::string_view line_ends_{};  ///< empty: not yet known
     bool has_begun_ = false;
     bool has_enough_ = false;
 };
 
-/// As read_file, of a text.
+/// As read_file, for a text.
 FileContent read_text(const std::string& name, std::size_t most);
 
 }  // namespace nplc::host

@@ -12,9 +12,9 @@
 
 namespace nplc::hal_linux {
 
-/// A place like a ByteServer's, with a connection for each client: who stays, who is read and how much is the
-/// caller's to say. No call blocks, but for open() as there. At a pseudo-terminal there is one client at a
-/// time, whoever has it open.
+/// A server like ByteServer with one connection per client: the caller decides which clients stay, and which
+/// are read and how much. No call blocks, except open() as there. A pseudo-terminal has one client at a time,
+/// any program that has it open.
 class Connections {
   public:
     struct Opened {
@@ -30,44 +30,45 @@ class Connections {
     using Id = std::uint64_t;  ///< 1 and so on, another one for each client
     enum class State : std::uint8_t {
         open,
-        hears,  ///< it has closed its sending end
-        gone,   ///< its connection is closed: its Id is nobody's
+        hears,  ///< it has closed its sending side
+        gone,   ///< its connection is closed and its Id invalid
     };
-    /// As far as the system tells.
+    /// As far as the system reports it.
     struct Peer {
         enum class Kind : std::uint8_t { user, address, terminal, serial_line };
         Kind kind = Kind::terminal;
-        std::uint32_t number = 0;  ///< the user's; an IPv4 address, its first number in bits 31..24
+        std::uint32_t number = 0;  ///< user number; or an IPv4 address, first number in bits 31..24
         std::uint16_t port = 0;    ///< of an address
     };
     struct Got {
         std::size_t count = 0;
         State state = State::open;
-        bool is_damaged = false;  ///< the next character was, and is left out; there may be more behind it
+        bool is_damaged = false;  ///< the next character was damaged and is left out; more may follow
     };
 
-    /// As a client would be told: the endpoint, with the port that the system chose.
+    /// The endpoint as a client writes it, with the port that the system chose.
     virtual const std::string& name() const = 0;
-    /// Readable when a client comes, or one that is listened to has sent something or gone, or one takes what
-    /// waits. That of a pseudo-terminal reports a hang-up all the time while it has no client.
+    /// Readable when a client connects, when one that is listened to has sent something or disconnected, or
+    /// when one accepts pending output. For a pseudo-terminal it reports a hang-up all the time while it has
+    /// no client.
     virtual int descriptor() const = 0;
-    /// The next one that waits to be let in. Nothing, and lacks_room(): one waits that the process has no
-    /// descriptor left for.
+    /// The next connecting client. Empty with lacks_room(): a client waits, but the process has no descriptor
+    /// left.
     virtual std::optional<Id> accept() = 0;
     virtual bool lacks_room() const { return false; }
     virtual Peer peer(Id client) const = 0;
-    /// Those of whom something is to be read, or who have gone, or who can be written to again. Those who are
-    /// not listened to, too: each time.
+    /// Clients with data, disconnected ones, and those that accept output again. Those that are not listened
+    /// to are included every time.
     virtual std::vector<Id> with_news() = 0;
     virtual Got read(Id client, std::span<std::uint8_t> out) = 0;
-    /// How much was taken; nothing: it has gone.
+    /// Number of accepted bytes; empty: the client has disconnected.
     virtual std::optional<std::size_t> write(Id client, std::span<const std::uint8_t> bytes) = 0;
-    /// Whether what it sends makes the descriptor readable.
+    /// Whether received data make the descriptor readable.
     virtual void listen_to(Id client, bool on) = 0;
-    /// Whether it makes the descriptor readable when it takes something.
+    /// Whether the client's readiness for output makes the descriptor readable.
     virtual void wait_to_write(Id client, bool on) = 0;
     virtual void close(Id client) = 0;
-    /// Clients of a TCP socket that began as a browser does and were turned away (StreamOpening).
+    /// Clients of a TCP socket that began as a browser does and were rejected (StreamOpening).
     virtual unsigned turned_away() const { return 0; }
 
   protected:

@@ -11,15 +11,15 @@
 
 namespace nplc::hal_linux {
 
-/// One place to sleep until something happens: a descriptor is readable, a signal came, or it is time. No
-/// thread, and no wake-up without a cause.
+/// Waits for events: a readable descriptor, a signal, or a deadline. Uses no thread, and never wakes without
+/// an event.
 class EventLoop {
   public:
     struct Opened {
         std::unique_ptr<EventLoop> loop;
-        std::string error;  ///< one line, without a loop
+        std::string error;  ///< one line, if there is no loop
     };
-    /// `signals` are kept from killing the program from now on; `signal` tells of them.
+    /// From now on `signals` do not end the program; signal() returns them.
     static Opened open(std::span<const int> signals);
     ~EventLoop();
     EventLoop(const EventLoop&) = delete;
@@ -27,19 +27,19 @@ class EventLoop {
 
     enum class Wakes : std::uint8_t {
         while_readable,
-        at_news,  ///< once for what came; for descriptors that report a hang-up as long as nobody is there
+        at_news,  ///< once per event; for descriptors that report a hang-up as long as there is no client
     };
-    /// `mark`: what `wait` answers for it. One that is watched already gets the new mark. A descriptor that
-    /// is closed is forgotten by itself.
+    /// `mark`: returned by `wait` for this descriptor. A descriptor that is already watched gets the new
+    /// mark. A closed descriptor is removed automatically.
     bool watch(int descriptor, std::uint32_t mark, Wakes wakes = Wakes::while_readable);
 
     void ignore(int descriptor);
 
-    /// Sleeps until there is something, or until `deadline` at the latest (kNever: no end; one that is past:
-    /// only looks). Answers the marks of what is readable, which may be none.
+    /// Sleeps until an event, or until `deadline` at the latest (kNever: no limit; in the past: returns at
+    /// once). Returns the marks of the readable descriptors; may be empty.
     std::span<const std::uint32_t> wait(base::Instant deadline);
 
-    /// The oldest signal that has not been taken.
+    /// The oldest pending signal.
     std::optional<int> signal();
 
   private:

@@ -10,10 +10,10 @@
 #include "ports/digital_io.h"
 
 /// Inputs and outputs on lines of the kernel's GPIO chips, by libgpiod 1.6 or 2. A line is held from `take`
-/// on, outputs with their first level from that moment. When a program ends in whatever way, the kernel takes
-/// its lines back, and what level one then has is the driver's affair: some hold the last one, others make it
-/// an input. So a line that moves something needs a resistor that pulls it to its safe level. A chip that has
-/// no bias ignores a request for one without an error.
+/// on, outputs with their first level from that moment. When a program ends in any way, the kernel releases
+/// its lines, and their level then depends on the driver: some hold the last one, others make the line an
+/// input. So a line that moves something needs a resistor that pulls it to its safe level. A chip without
+/// bias ignores a request for one without an error.
 namespace nplc::hal_linux {
 
 enum class GpioBias : std::uint8_t { as_is, off, pull_up, pull_down };
@@ -26,7 +26,7 @@ struct GpioLine {
 
 struct FoundLine {
     std::string place{};    ///< /dev/gpiochip0:17, however the line was named
-    std::string problem{};  ///< or why it is not to be found, one line
+    std::string problem{};  ///< or why it was not found, one line
 };
 FoundLine find_line(const std::string& where);
 
@@ -42,21 +42,21 @@ class GpioBits {
 
     struct Wanted {
         std::span<const std::optional<GpioLine>> lines;  ///< at most 8; bit 0 first
-        std::string consumer;                            ///< who has them, for `gpioinfo`
-        std::optional<std::uint8_t> outputs{};           ///< the first levels of outputs; inputs without
+        std::string consumer;                            ///< user of the lines, for `gpioinfo`
+        std::optional<std::uint8_t> outputs{};           ///< initial levels of outputs; empty for inputs
     };
-    /// Lets go what it held. Empty when all were had; else one line that says which was not, and why. Then
-    /// none is held.
+    /// Releases the lines held before. Empty on success; else one line with the failed line and the reason,
+    /// and no line is held.
     std::string take(const Wanted& wanted);
 
-    /// A bit whose line is not wanted is 0. Nothing if a chip is gone.
+    /// Bits without a line are 0. Empty if a chip is lost.
     std::optional<std::uint8_t> levels();
     bool set(std::uint8_t levels);
 
-    /// Readable while an edge waits.
+    /// Readable while an edge is pending.
     std::vector<int> descriptors() const;
-    /// Takes the edges that wait at one of them, counted from 0, which must be readable. Answers `before`
-    /// with the levels that they led to; nothing if that cannot be told from them, and then `levels` tells.
+    /// Takes the pending edges at one of them, counted from 0, which must be readable. Returns `before` with
+    /// the levels after the edges; empty if they do not determine the levels, which `levels` then reads.
     std::optional<std::uint8_t> take_edges(std::size_t descriptor, std::uint8_t before);
 
   private:
@@ -65,13 +65,13 @@ class GpioBits {
     std::vector<Part> parts_;
 };
 
-/// Inputs, as they were when they were looked at last. A chip that is gone reads 0, and `lost` from then on.
+/// Inputs, as of the last look. A lost chip reads 0, with `lost` from then on.
 class GpioInputs final : public ports::DigitalInputs {
   public:
     explicit GpioInputs(GpioBits& bits) : bits_(bits) { look(); }
-    /// At all lines.
+    /// Reads all lines.
     void look();
-    /// At those whose edges wait at this descriptor of the bits, which must be readable.
+    /// Reads the lines with pending edges at this descriptor, which must be readable.
     void look_at(std::size_t descriptor);
     std::uint8_t read() override { return levels_; }
     bool lost() const { return lost_; }
@@ -82,7 +82,7 @@ class GpioInputs final : public ports::DigitalInputs {
     bool lost_ = false;
 };
 
-/// Outputs. The last levels are `safe` when it is destroyed.
+/// Outputs. The destructor sets the levels `safe`.
 class GpioOutputs final : public ports::DigitalOutputs {
   public:
     GpioOutputs(GpioBits& bits, std::uint8_t safe) : bits_(bits), safe_(safe) {}

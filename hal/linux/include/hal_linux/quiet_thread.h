@@ -5,7 +5,7 @@
 
 namespace nplc::hal_linux {
 
-/// A thread beside the loops of axes: without their real-time priority, and no signal comes to it.
+/// A background thread: without the axes' real-time priority, and with all signals blocked.
 std::thread start_quiet_thread(std::function<void()> work);
 
 }  // namespace nplc::hal_linux

@@ -4,34 +4,34 @@
 
 namespace nplc::hal_linux {
 
-/// A file that says whether a program runs and in which boot of this machine it began, so that the next start
-/// knows how the last one ended. It has one size from the beginning and is written in place, so that a full
-/// disk does not matter; what it says is on the disk when a call returns.
+/// A file that records whether a program runs and in which boot of this machine it began, so that the next
+/// start knows how the last run ended. It has a fixed size and is written in place, so that a full disk does
+/// not matter; its content is on the disk when a call returns.
 class RunMarker {
   public:
     enum class Found {
         missing,
-        fresh,    ///< made, and never set
-        ended,    ///< in order
-        running,  ///< not ended: killed, crashed, reset, or the power was cut
-        damaged,  ///< or not readable
+        fresh,    ///< created, and never set
+        ended,    ///< orderly end
+        running,  ///< no orderly end: killed, crashed, reset, or a power cut
+        damaged,  ///< or unreadable
     };
 
-    /// Looks at the file and changes nothing.
+    /// Reads the file and changes nothing.
     explicit RunMarker(std::string path);
     Found found() const { return found_; }
-    /// What was found was written in this boot.
+    /// The record was written in this boot.
     bool of_this_boot() const { return of_this_boot_; }
-    /// What was found was written by a version before 2, beside which the store had no record of its owner.
+    /// The record was written by version 1, in which the store had no owner record.
     bool is_old() const { return is_old_; }
 
-    // Each answers nothing, or in one line why it could not be written.
+    // Each returns an empty string, or a one-line error.
 
-    /// `fresh`, where nothing was found.
+    /// Creates the file as `fresh` if there was none.
     std::string make();
-    /// The program runs from now on.
+    /// Records that the program runs.
     std::string set();
-    /// It has ended in order.
+    /// Records an orderly end.
     std::string clear();
 
   private:
@@ -43,7 +43,7 @@ class RunMarker {
     Found found_ = Found::damaged;
     bool of_this_boot_ = false;
     bool is_old_ = false;
-    bool is_whole_ = false;  ///< and can be written in place
+    bool is_whole_ = false;  ///< complete, so that it can be written in place
 };
 
 }  // namespace nplc::hal_linux

@@ -6,13 +6,13 @@
 
 namespace nplc::hal_linux {
 
-/// CLOCK_MONOTONIC: never set, and stands still while the machine sleeps.
+/// CLOCK_MONOTONIC: never set, and stopped while the machine sleeps.
 class SteadyClock final : public ports::Clock {
   public:
     base::Instant now() override;
 };
 
-/// The calendar, in ms since 1970; it may be set, and jumps then.
+/// Wall-clock time, ms since 1970; jumps when it is set.
 std::uint64_t calendar_milliseconds();
 
 }  // namespace nplc::hal_linux

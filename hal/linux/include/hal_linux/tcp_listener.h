@@ -5,8 +5,7 @@
 
 namespace nplc::hal_linux {
 
-/// A TCP socket that listens, for clients of any number. It never blocks, and neither do the clients'
-/// sockets.
+/// A listening TCP socket for any number of clients. Neither it nor the clients' sockets block.
 class TcpListener {
   public:
     TcpListener() = default;
@@ -15,20 +14,20 @@ class TcpListener {
     TcpListener& operator=(const TcpListener&) = delete;
 
     /// `where`: "tcp:ADDRESS:PORT", ADDRESS of IPv4 or, in brackets, IPv6; PORT 0 lets the system choose.
-    /// Empty, or in one line why not and what to do.
+    /// Empty, or a one-line error with the remedy.
     std::string open(const std::string& where);
     /// "tcp:127.0.0.1:1502", with the port that the system chose.
     const std::string& name() const { return name_; }
-    /// Readable while a client waits.
+    /// Readable while a client is connecting.
     int descriptor() const { return descriptor_; }
 
     struct Client {
-        int descriptor = -1;  ///< negative: nobody waits; else the caller's
+        int descriptor = -1;  ///< negative: none; else owned by the caller
         std::string peer{};   ///< its address in numbers
     };
     Client accept() const;
 
-    /// Why this is no place to listen; empty: it is one.
+    /// Why `where` is no valid address; empty if it is.
     static std::string mistake_in(const std::string& where);
 
   private:

@@ -10,9 +10,9 @@
 
 namespace nplc::hal_linux {
 
-/// The driver switches the transmitter on for the time of sending.
+/// RS-485: the driver enables the transmitter while sending.
 struct Rs485 {
-    bool rts_on_send = true;  ///< RTS while it sends; otherwise while it does not
+    bool rts_on_send = true;  ///< RTS is on while it sends; else while it does not
     std::uint32_t before_ms = 0;
     std::uint32_t after_ms = 0;
 };
@@ -27,16 +27,16 @@ struct UartSettings {
     bool two_stop_bits = false;
 };
 
-/// A serial line of 8 data bits, held exclusively. An adapter that was pulled out swallows what is written
-/// and is silent, like a line that was cut, until `reopen` finds it again.
+/// A serial line of 8 data bits, locked exclusively. With an unplugged adapter writes are discarded and
+/// nothing is received, as with a broken wire, until `reopen` finds it again.
 class Uart final : public ports::SerialPort {
   public:
     struct Opened {
         std::unique_ptr<Uart> uart;
-        std::string error;  ///< one line, without a uart
+        std::string error;  ///< one line, if there is no uart
     };
     static Opened open(const UartSettings& settings);
-    /// One that is gone until `reopen`.
+    /// A port that is missing until `reopen`.
     static std::unique_ptr<Uart> absent(const UartSettings& settings);
     ~Uart();
     Uart(const Uart&) = delete;
@@ -46,7 +46,7 @@ class Uart final : public ports::SerialPort {
     std::size_t read(std::span<ports::ReceivedByte> out) override;
     bool transmitter_idle() override;
 
-    /// To wait for bytes; -1 while it is gone.
+    /// To wait for bytes; -1 while the port is missing.
     int descriptor() const { return descriptor_; }
     bool gone() const { return descriptor_ < 0; }
     /// Empty if it is back, with another descriptor.
@@ -57,7 +57,8 @@ class Uart final : public ports::SerialPort {
     void lose();
     std::size_t unmarked(std::span<const std::uint8_t> bytes, std::span<ports::ReceivedByte> out);
 
-    /// A character with a framing error comes as FFh 00h and itself, FFh as FFh FFh.
+    /// Driver escape codes: a character with a framing error is preceded by FFh 00h, a data byte FFh is sent
+    /// as FFh FFh.
     enum class Mark : std::uint8_t { none, begun, error };
 
     UartSettings settings_;

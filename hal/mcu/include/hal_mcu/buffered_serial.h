@@ -7,9 +7,8 @@
 
 namespace nplc::hal_mcu {
 
-/// A serial line whose interrupt moves the characters. The chip's part derives from it. A place where
-/// characters were lost is handed on as a character with framing_error, so that no message is put together
-/// across the gap.
+/// A serial line with interrupt-driven buffers; the chip's driver derives from it. Lost characters are
+/// reported as one character with framing_error, so that no message is assembled across the gap.
 class BufferedSerial : public ports::SerialPort {
   public:
     static constexpr std::size_t kCapacity = 64;  ///< characters, each way
@@ -24,14 +23,14 @@ class BufferedSerial : public ports::SerialPort {
   protected:
     ~BufferedSerial() = default;
 
-    /// For the interrupt: a character has come, or one was lost before the next.
+    /// To be called by the interrupt: a character was received, or one was lost before the next.
     void take_received(std::uint8_t value, bool framing_error);
     void note_overrun();
     std::optional<std::uint8_t> next_to_send() { return to_send_.pop(); }
     bool has_to_send() const { return !to_send_.empty(); }
 
   private:
-    virtual void wake_transmitter() = 0;  ///< there is something to send
+    virtual void wake_transmitter() = 0;  ///< there are bytes to send
     virtual bool line_is_idle() = 0;
 
     struct Received {

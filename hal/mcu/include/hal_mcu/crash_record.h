@@ -4,7 +4,7 @@
 
 namespace nplc::hal_mcu {
 
-/// Why the firmware crashed. The numbers are those of the event log (REGISTERS.md).
+/// Cause of a crash, with the numbers of the event log (REGISTERS.md).
 enum class EndCause : std::uint8_t {
     none = 0,
     watchdog = 1,
@@ -15,11 +15,11 @@ enum class EndCause : std::uint8_t {
     stray_interrupt = 6,
     no_clock = 7,
     pure_call = 8,
-    unrecorded = 9,  ///< reset while the firmware ran: nothing of ours was executed any more
+    unrecorded = 9,  ///< reset while the firmware ran, without a record of the firmware
 };
 
-/// What the firmware leaves in memory that a reset does not clear, for its next start. After power-up the
-/// bytes are anything, so all is held against a check.
+/// A record in memory that a reset does not clear, for the next start. After power-up the bytes are
+/// undefined, so a check word covers them.
 class CrashRecord {
   public:
     void set(EndCause cause, std::uint32_t code_address) {

@@ -6,18 +6,18 @@
 
 namespace nplc::hal_mcu {
 
-/// A chip's I2C master, one transfer at a time. Nothing blocks. A bus that hangs may stay busy: how long that
-/// may be is the caller's to say.
+/// A chip's I2C master, one transfer at a time. Nothing blocks. A hung bus may stay busy: the caller needs a
+/// timeout.
 class I2cBus {
   public:
     enum class State : std::uint8_t {
-        idle,  ///< the last transfer is done
+        idle,  ///< the last transfer is complete
         busy,
-        refused,  ///< nobody acknowledged, or the bus was lost
+        refused,  ///< no acknowledge, or arbitration lost
     };
 
-    /// Device and address are written, then `out`, then `blanks` times FFh, then a stop. With `in` the device
-    /// is begun anew and read. The bytes must stay until the state is no longer busy.
+    /// Writes device and address, then `out`, then `blanks` times FFh, then a stop. With `in`, a repeated
+    /// start and a read follow. The bytes must stay valid until the state is no longer busy.
     struct Transfer {
         std::uint8_t device = 0;  ///< 7 bits
         std::array<std::uint8_t, 2> address{};
@@ -26,7 +26,7 @@ class I2cBus {
         std::span<std::uint8_t> in{};
     };
 
-    /// Only while not busy.
+    /// Needs a state other than busy.
     virtual void begin(const Transfer& transfer) = 0;
     virtual State state() = 0;
     /// Aborts the transfer and frees the bus.

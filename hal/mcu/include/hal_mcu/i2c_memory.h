@@ -6,9 +6,9 @@
 
 namespace nplc::hal_mcu {
 
-/// A serial EEPROM with two address bytes (24C32 to 24C512). Writing and erasing are begun and go on by
-/// themselves; state() asks the memory whether its write cycle is over, which takes one transfer each time.
-/// Reading waits for the bus: 64 bytes take 1.6 ms at 400 kHz.
+/// A serial EEPROM with two address bytes (24C32 to 24C512). Writes and erases run in the background; state()
+/// polls the memory for the end of its write cycle, one transfer each time. A read waits for the bus: 64
+/// bytes take 1.6 ms at 400 kHz.
 class I2cMemory final : public ports::Storage {
   public:
     struct Kind {
@@ -20,8 +20,8 @@ class I2cMemory final : public ports::Storage {
 
     I2cMemory(I2cBus& bus, ports::Clock& clock, const Kind& kind) : bus_(bus), clock_(clock), kind_(kind) {}
 
-    /// For the start-up: waits until the memory answers, 20 ms at the most; a reset may have come in the
-    /// middle of a write cycle. False: it does not.
+    /// For the start-up: waits up to 20 ms until the memory answers, since a reset may have interrupted a
+    /// write cycle. False: no answer.
     bool wait_until_ready();
 
     ports::StorageGeometry geometry() const override;

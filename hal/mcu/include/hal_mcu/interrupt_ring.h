@@ -8,8 +8,7 @@
 
 namespace nplc::hal_mcu {
 
-/// First in, first out, between an interrupt and the loop: one of them pushes, the other pops, and neither
-/// waits.
+/// Lock-free FIFO between an interrupt and the loop: one side pushes, the other pops.
 template <class T, std::size_t Capacity>
 class InterruptRing {
     static_assert(Capacity != 0 && (Capacity & (Capacity - 1)) == 0 && Capacity <= 0x8000);
@@ -41,7 +40,7 @@ class InterruptRing {
         return static_cast<std::uint16_t>(end - begin);
     }
 
-    std::atomic<std::uint16_t> begin_{0};  ///< both run on through 65535 to 0
+    std::atomic<std::uint16_t> begin_{0};  ///< both wrap from 65535 to 0
     std::atomic<std::uint16_t> end_{0};
     std::array<T, Capacity> items_{};
 };

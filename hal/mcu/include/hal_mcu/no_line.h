@@ -4,7 +4,7 @@
 
 namespace nplc::hal_mcu {
 
-/// For a line that is not there: takes everything and receives nothing.
+/// A null line: discards all output and receives nothing.
 class NoLine final : public ports::SerialPort {
   public:
     std::size_t write(std::span<const std::uint8_t> bytes) override { return bytes.size(); }

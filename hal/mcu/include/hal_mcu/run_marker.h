@@ -4,9 +4,9 @@
 
 namespace nplc::hal_mcu {
 
-/// Says in memory that a reset does not clear that the firmware runs: whoever finds it set at the start knows
-/// that the run before was ended by a reset that nobody announced. After power-up the bytes are anything;
-/// a bit that has flipped hides nothing.
+/// A marker of the running firmware in memory that a reset does not clear: if it is set at a start, the
+/// previous run was ended by an unexpected reset. After power-up the bytes are undefined; a flipped bit does
+/// not hide a set marker.
 class RunMarker {
   public:
     bool is_set() const { return running_ == kRunning || check_ == ~kRunning; }

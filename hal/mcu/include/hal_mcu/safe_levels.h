@@ -4,9 +4,8 @@
 
 namespace nplc::hal_mcu {
 
-/// The outputs' safe values in memory that a reset does not clear: for what happens before the settings are
-/// read and when nothing works any more. After power-up the bytes are anything, so a check is held against
-/// them; then all are 0.
+/// The outputs' safe values in memory that a reset does not clear: used before the settings are read and
+/// after a fault. After power-up the bytes are undefined; if the check word does not fit, all values are 0.
 class SafeLevels {
   public:
     std::uint8_t get() const { return check_ == ~levels_ ? static_cast<std::uint8_t>(levels_ & 0xFU) : 0; }

@@ -6,8 +6,8 @@
 
 namespace nplc::hal_mcu {
 
-/// The gateway's time line out of a counter of milliseconds that wraps after 49 days and the time into the
-/// present one. To be called more often than that.
+/// The gateway's time line, from a millisecond counter that wraps after 49 days and the time within the
+/// present millisecond. Must be called before each wrap.
 class TickTime {
   public:
     base::Instant at(std::uint32_t milliseconds, std::uint32_t microseconds) {
@@ -20,8 +20,8 @@ class TickTime {
 
   private:
     std::uint32_t last_ = 0;
-    base::Instant begun_{};   ///< of the present millisecond
-    base::Instant latest_{};  ///< time never runs back
+    base::Instant begun_{};   ///< start of the present millisecond
+    base::Instant latest_{};  ///< time never goes back
 };
 
 }  // namespace nplc::hal_mcu

@@ -4,7 +4,7 @@
 
 namespace nplc::ports {
 
-/// Monotonic time. Read by composition roots only; everything else is given the time.
+/// Monotonic time. Only composition roots read it; all other code is passed the time.
 class Clock {
   public:
     virtual base::Instant now() = 0;

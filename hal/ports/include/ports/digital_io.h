@@ -4,7 +4,7 @@
 
 namespace nplc::ports {
 
-/// Six logic inputs, bit 0 = input 0, 1 = active. Raw: debouncing is the gateway's work.
+/// Six logic inputs, bit 0 = input 0, 1 = active. Not debounced: the gateway does that.
 class DigitalInputs {
   public:
     virtual std::uint8_t read() = 0;

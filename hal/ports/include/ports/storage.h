@@ -10,11 +10,11 @@ namespace nplc::ports {
 /// Sizes in bytes. Each divides the next: program_unit, program_page, erase_block, size.
 struct StorageGeometry {
     std::uint32_t size = 0;
-    std::uint32_t erase_block = 0;   ///< what one erasure sets to FFh
-    std::uint32_t program_page = 0;  ///< one programming stays inside such a page
-    std::uint32_t program_unit = 0;  ///< the least that can be programmed, and programmed once only
+    std::uint32_t erase_block = 0;   ///< size of an erase, which sets FFh
+    std::uint32_t program_page = 0;  ///< one program operation stays within such a page
+    std::uint32_t program_unit = 0;  ///< smallest programmable size; may be programmed once only
 
-    // What Storage answers bad_geometry to is none of these.
+    // For other ranges Storage returns bad_geometry.
     constexpr bool can_read(std::uint32_t address, std::size_t bytes) const {
         return address <= size && size - address >= bytes;
     }
@@ -30,27 +30,27 @@ struct StorageGeometry {
 enum class StorageState : std::uint8_t {
     ready,
     busy,
-    failed,  ///< the last operation did not succeed; the next one may be begun
+    failed,  ///< the last operation failed; a new one may be started
 };
 
-/// Memory that keeps its bytes without power: NOR flash in the chip or beside it, or an EEPROM. Programming
-/// only turns ones into zeros, and a unit is programmed once between two erasures of its block (flash with
-/// error correction allows no more). An EEPROM has erase_block = program_page = its page, program_unit 1, and
-/// its driver erases by writing FFh.
+/// Non-volatile memory: NOR flash in or beside the chip, or an EEPROM. Programming only turns ones into
+/// zeros, and a unit is programmed once between two erases of its block (flash with error correction allows
+/// no more). An EEPROM has erase_block = program_page = its page, program_unit 1, and its driver erases by
+/// writing FFh.
 ///
-/// `program` and `erase` only begin the work: until state() is no longer `busy` nothing else can be begun,
-/// and nothing read. Power that fails meanwhile leaves the bytes concerned, and no others, undefined. Errors:
-/// busy; bad_geometry (outside, not aligned, over a page's end).
+/// `program` and `erase` only start the operation: until state() is no longer `busy` no other one can be
+/// started, and nothing can be read. After a power failure meanwhile the bytes concerned, and no others, are
+/// undefined. Errors: busy; bad_geometry (outside, not aligned, across a page boundary).
 class Storage {
   public:
     virtual StorageGeometry geometry() const = 0;
 
-    /// Copies at once. Serial memories take the bus for the time of the transfer, so whoever must not wait
-    /// reads kReadAtOnce bytes at a time.
+    /// Copies at once. A serial memory takes the bus for the time of the transfer, so time-critical callers
+    /// read kReadAtOnce bytes at a time.
     virtual base::Status read(std::uint32_t address, std::span<std::uint8_t> out) = 0;
     static constexpr std::size_t kReadAtOnce = 64;
 
-    /// Address and length are multiples of program_unit. The bytes must stay until the work is done.
+    /// Address and length are multiples of program_unit. The bytes must stay valid until the operation ends.
     virtual base::Status program(std::uint32_t address, std::span<const std::uint8_t> bytes) = 0;
 
     /// `address`: the first byte of the block.

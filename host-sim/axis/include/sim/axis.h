@@ -11,12 +11,12 @@ namespace nplc::sim {
 struct AxisReading {
     plant_file::Plant plant{};
     Load load{};
-    std::string error{};  ///< one line, with file, place and what to do; empty if all is well
+    std::string error{};  ///< one line, with file, position and remedy; empty on success
 };
-/// The file of `--plant`, for a motor of this model.
+/// Reads the file of `--plant`, for a motor of this model.
 AxisReading read_axis(const std::string& file, registers::Model model);
 
-/// What `option` names, else the scenario's line; a motor of its own without either.
+/// The file named by `option`, else the scenario's line; without either the bare motor.
 AxisReading read_axis(const std::string& option, const Scenario& scenario, registers::Model model);
 
 }  // namespace nplc::sim

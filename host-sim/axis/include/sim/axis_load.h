@@ -5,7 +5,7 @@
 
 namespace nplc::sim {
 
-/// What a plant makes of a virtual motor's shaft; what it does not tell is as it was in `load`.
+/// The load of a virtual motor's shaft as a plant file describes it; missing values are those of `load`.
 Load load_of(const plant_file::Plant& plant, registers::Model model, Load load = {});
 
 }  // namespace nplc::sim

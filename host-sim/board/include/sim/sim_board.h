@@ -22,8 +22,8 @@ class SimBoard final : public ports::DigitalInputs, public ports::DigitalOutputs
     std::uint8_t inputs() const { return inputs_; }
     std::uint8_t outputs() const { return outputs_; }
 
-    /// To be called after every poll of the firmware. True when the watchdog bites: it was fed once and then
-    /// not for its time. It then waits to be fed again.
+    /// To be called after every poll of the firmware. True on a watchdog timeout: it was fed once and then
+    /// not within its timeout. It then waits to be fed again.
     bool watchdog_bites(base::Instant now);
     std::uint32_t bites() const { return bites_; }
 

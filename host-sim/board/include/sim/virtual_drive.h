@@ -16,15 +16,15 @@ namespace nplc::sim {
 struct VirtualDriveOptions {
     const registers::DriveModel* model = nullptr;
     bool can = false;
-    std::uint8_t address = 0;  ///< of a CAN bus 1..; 0 there: 1
-    std::uint32_t rate = 0;    ///< baud or bit/s; 0: what the drive comes with
+    std::uint8_t address = 0;  ///< on a CAN bus 1..; 0 there means 1
+    std::uint32_t rate = 0;    ///< baud or bit/s; 0: the drive's factory setting
     std::uint64_t seed = 1;    ///< of the line's faults
 };
 
-/// What a drive does not have that cannot do it: "a brake".
+/// Name of the part that an action needs and a drive may lack: "a brake".
 std::string_view missing_for(const action::OnMotor& what);
 
-/// A virtual drive in the place of the JVL motor, and the line to it, in virtual time. Shaft and speed are in
+/// A virtual drive that replaces the JVL motor, and the line to it, in virtual time. Shaft and speed are in
 /// JVL's counts and samples.
 class VirtualDrive {
   public:
@@ -33,18 +33,18 @@ class VirtualDrive {
     VirtualDrive& operator=(const VirtualDrive&) = delete;
     virtual ~VirtualDrive() = default;
 
-    /// The gateway's end of the line, and what its driver must know.
+    /// The gateway's end of the line, and the settings of its driver.
     virtual motor::DriverPorts ports() = 0;
     virtual void complete(motor::DriverSettings& settings) const = 0;
     /// "MAC34-1 over V24 at 38400 baud"
     virtual std::string in_words() const = 0;
-    /// What the driver says of its ERROR; empty without one.
+    /// The driver's text for its ERROR; empty without one.
     virtual std::string note(const motor::AnyDriver& driver) const = 0;
-    /// Null: it is no serial line.
+    /// Null if it is no serial line.
     virtual const VirtualSerialLine* line() const = 0;
 
-    /// Moves characters or frames on, after the drive has done all that happens until then. True if something
-    /// has arrived at the gateway.
+    /// Moves characters or frames, after the drive was advanced to `now`. True if something has arrived at
+    /// the gateway.
     virtual bool service(Time now) = 0;
     virtual Time next_event(Time now) const = 0;
     virtual Time sample_period() const = 0;
@@ -56,19 +56,19 @@ class VirtualDrive {
     virtual void reseed(std::uint64_t seed) = 0;
     virtual void power(bool on) = 0;
 
-    /// The drive reports an error; false: it has none.
+    /// The drive reports an error; false: it cannot.
     virtual bool fail() { return false; }
-    /// Before the run begins.
+    /// To be called before the run begins.
     virtual void store(const StoredRegister&) {}
-    /// Empty, or missing_for() it.
+    /// Empty, or missing_for() the action.
     virtual std::string_view act(const action::OnMotor& what) { return missing_for(what); }
 };
 
-/// Null for a JVL motor, which the board's world has itself.
+/// Null for a JVL motor, which is part of World.
 std::unique_ptr<VirtualDrive> make_virtual_drive(const VirtualDriveOptions& options,
                                                  const LineFaults& faults);
 
-/// Of one direction, what `what` names.
+/// Applies the faults named in `what` to one direction.
 void spoil(LineDirection& direction, const action::SpoilLine& what);
 
 }  // namespace nplc::sim

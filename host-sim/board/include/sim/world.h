@@ -26,30 +26,31 @@ namespace nplc::sim {
 enum class Polling : std::uint8_t {
     steadily,     ///< every 250 us, and when a character arrives from the motor
     at_need,      ///< when something arrives, and when the firmware's deadline is due
-    beyond_need,  ///< all of that
+    beyond_need,  ///< both together: every 250 us and at need
 };
 
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
-    /// A drive of another family in the motor's place; the motor stays without supply.
+    /// A drive of another family that replaces the motor; the motor then has no supply.
     std::optional<VirtualDriveOptions> drive{};
-    std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
+    std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. Also the gateway's if nothing is stored
     std::uint64_t seed = 1;
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
-    bool is_new = false;                              ///< nobody has commanded run with its store yet
+    /// It starts by itself only once somebody has commanded run with its store.
+    bool is_new = false;
     Servo::Depth depth = Servo::Depth::current_loop;  ///< of the motor's computation
     Load load{};                                      ///< of the motor's shaft
-    gateway::Settings gateway{};                      ///< where nothing is stored
+    gateway::Settings gateway{};                      ///< used while nothing is stored
     std::uint32_t user_baud =
         19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
-    std::vector<StoredRegister> registers{};  ///< in the drive's flash, beside what comes from the box
-    bool user_submits = false;          ///< a listener's messages (UserPort::submit) in the user line's place
-    bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
-    ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
+    std::vector<StoredRegister> registers{};  ///< in the drive's flash, in addition to the factory values
+    bool user_submits = false;         ///< messages of a listener (UserPort::submit) instead of the user line
+    bool motor_mactalk_wired = false;  ///< the motor's own MacTalk port, to the gateway's second user port
+    ports::Storage* storage = nullptr;  ///< for tables and settings; null: the board's own
     Polling polling = Polling::steadily;
-    gateway::Observer* observer = nullptr;  ///< hears what the gateway's own would
+    gateway::Observer* observer = nullptr;  ///< receives the gateway's observer calls
 };
 
 /// The simulated board with the firmware on it, its motor and the line between them, in virtual time. From
@@ -85,47 +86,47 @@ class World final : public Stage, private gateway::Observer {
     std::deque<Order> take_executed() { return mac_.take_orders(); }
 
     /// The orders that the driver has neither executed nor dropped, by their numbers among all orders given,
-    /// counted from 0. The motor may have executed one of them already, unknown to the driver.
+    /// counted from 0. The motor may have executed one of them already without the driver knowing.
     const std::deque<std::size_t>& on_their_way() const { return on_their_way_; }
 
     const gateway::Gateway& gateway() const { return controller_->sequence(); }
-    /// What the gateway said of the table; it may still not be for this motor.
+    /// The gateway's result for the table; it may still not suit this motor.
     const gateway::Gateway::LoadResult& load_result() const { return load_result_; }
     const motor::Motor& driver() const { return *motor_; }
     const motor::AnyDriver& any_driver() const { return driver_; }
     const MacMotor& mac() const { return mac_; }
-    /// For what a person changes by hand between two steps of the world.
+    /// For changes by hand between two steps of the world.
     MacMotor& mac() { return mac_; }
-    /// Null: the JVL motor is led.
+    /// Null if the motor is a JVL motor.
     const VirtualDrive* drive() const { return drive_.get(); }
     VirtualDrive* drive() { return drive_.get(); }
-    /// What the motor, or the driver, says of its error; empty without one.
+    /// The motor's or the driver's text for its error; empty without one.
     std::string motor_note() const;
-    /// Of a table that load_result() says is not for this motor; empty if nothing more is known.
+    /// For a table that load_result() says is not for this motor; empty without details.
     std::string_view why_not() const;
     const VirtualSerialLine& line() const { return line_; }
     const SimBoard& board() const { return board_; }
 
-    /// What a client program puts on the gateway's port; it waits for the line.
+    /// Bytes of a client program to the gateway's port; they wait for the line.
     void user_sends(std::span<const std::uint8_t> bytes) {
         waiting_.user.insert(waiting_.user.end(), bytes.begin(), bytes.end());
     }
-    /// What has arrived there since the last call.
+    /// Bytes received from there since the last call.
     std::vector<std::uint8_t> user_received() { return std::exchange(user_received_, {}); }
-    /// As it was when the gateway started.
+    /// The value at the gateway's start.
     std::uint32_t setting(store::Setting setting) const { return settings_->at_start(setting); }
     std::uint8_t gateway_address() const;
     std::uint8_t motor_address() const;  ///< on the user's port
     const gateway::TableManager& tables() const { return controller_->tables(); }
-    /// For faces, between two steps. Another one for every start of the gateway.
+    /// For other interfaces (faces), between two steps. A new object after every start of the gateway.
     gateway::Controller& controller() { return *controller_; }
     std::uint64_t starts() const { return starts_; }
     base::Instant instant() const;
 
-    /// What `log` actions say.
+    /// Receives the text of `log` actions.
     void on_log(std::function<void(const std::string&)> callback) { on_log_ = std::move(callback); }
 
-    /// How often the firmware has been polled.
+    /// Number of polls of the firmware.
     std::uint64_t polls() const { return polls_; }
 
     void set_input(unsigned index, bool level) override;
@@ -161,7 +162,7 @@ class World final : public Stage, private gateway::Observer {
     void refused(gateway::Result why);
     Time next_poll();
     void follow_orders();
-    /// Something has arrived that a board would wake up for.
+    /// An event that wakes a sleeping board.
     void wake();
 
     std::vector<std::uint8_t> table_;
@@ -175,12 +176,12 @@ class World final : public Stage, private gateway::Observer {
     std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};
     std::optional<gateway::SettingsManager> settings_;
     std::optional<gateway::Controller> controller_;
-    VirtualSerialLine user_line_;     ///< its "motor" is the client
+    VirtualSerialLine user_line_;     ///< the "motor" end of this line is the client
     VirtualSerialLine mactalk_line_;  ///< to the motor's own MacTalk port
     struct Waiting {
         std::deque<std::uint8_t> user;  ///< bytes for the user
         std::deque<action::SetPoints> set_points;
-        std::optional<gateway::SetPoints::Writer> writer;  ///< of the first of them
+        std::optional<gateway::SetPoints::Writer> writer;  ///< for the first of them
     };
     Waiting waiting_;
     std::vector<std::uint8_t> user_received_;
@@ -190,15 +191,15 @@ class World final : public Stage, private gateway::Observer {
     Time now_{0};
     Time next_poll_{0};
     std::uint64_t polls_ = 0;
-    std::uint64_t starts_ = 0;  ///< of the gateway
+    std::uint64_t starts_ = 0;  ///< number of starts of the gateway
     Time next_sample_;
-    Time motor_asks_{0};  ///< when the motor's transmitter is looked at next
+    Time motor_asks_{0};  ///< next time that the motor's transmitter is polled
     bool motor_powered_ = true;
     bool motor_fails_ = false;
     std::vector<SentOrder> orders_;
     std::size_t orders_given_ = 0;
     std::deque<std::size_t> on_their_way_;
-    motor::Counters followed_;  ///< the driver's, as on_their_way_ stands
+    motor::Counters followed_;  ///< the driver's counters at the last update of on_their_way_
     std::function<void(const std::string&)> on_log_;
 };
 

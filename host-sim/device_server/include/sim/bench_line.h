@@ -9,8 +9,8 @@
 
 namespace nplc::sim {
 
-/// A line at a simulator's control port: `status`, `help`, or what happens to the device now, written as an
-/// action of a scenario (`motor load 500`, `motor power off for 2 s`).
+/// Carries out a line of a simulator's control port: `status`, `help`, or an action on the device, written as
+/// in a scenario (`motor load 500`, `motor power off for 2 s`).
 ControlPort::Answer carry_out(std::string_view line, const Names& names,
                               const std::function<std::string()>& status,
                               const std::function<void(Actions)>& act);

@@ -11,26 +11,26 @@
 
 namespace nplc::sim {
 
-/// Where a person or a program says what happens to a device, a line each, and hears what became of it: an
-/// endpoint for several clients, one more in the place of who has said nothing for the longest time, or `-`,
-/// the program's standard input and output. Nothing blocks.
+/// Accepts actions on a device, one per line, from a user or a program and returns their results: an endpoint
+/// for several clients, where a new one replaces the one that has been silent the longest, or `-`, the
+/// program's standard input and output. Nothing blocks.
 class ControlPort {
   public:
-    /// Carries a line out; answers what went wrong, or what was asked for, or nothing.
+    /// Carries out a line; returns an error, requested text, or nothing.
     struct Answer {
         bool done = true;
         std::string text{};
     };
     using CarryOut = std::function<Answer(std::string_view line)>;
 
-    /// An empty text opens nothing. Answers what went wrong, in one line, or nothing.
+    /// An empty text opens nothing. Returns a one-line error, or an empty text.
     std::string open(const std::string& endpoint);
-    /// Each line that has come is carried out and answered: `ok`, the text, or `error: ` and the text. Blank
-    /// lines and what follows a # are nothing.
+    /// Carries out each received line and answers it: `ok`, the text, or `error: ` and the text. Blank lines
+    /// and text after a # are ignored.
     void serve(const CarryOut& carry_out);
     bool is_open() const { return is_console_ || connections_ != nullptr; }
     bool is_console() const { return is_console_; }
-    /// "control: unix:/tmp/bench" and a line's end; nothing if it is none.
+    /// "control: unix:/tmp/bench" and a line end; empty if there is none.
     std::string described() const;
 
   private:
@@ -39,7 +39,7 @@ class ControlPort {
         std::string line{};
         bool too_long = false;
         bool has_gone = false;
-        std::uint64_t heard = 0;  ///< rises with every line of any client
+        std::uint64_t heard = 0;  ///< order of the last line over all clients
     };
 
     void let_in();

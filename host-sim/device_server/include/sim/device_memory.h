@@ -12,32 +12,32 @@ struct NamedValue {
     std::int64_t value = 0;
 };
 
-/// What one device keeps without power, as named values.
+/// A device's non-volatile memory, as named values.
 class DeviceMemory {
   public:
     virtual ~DeviceMemory() = default;
     /// The first line of its file.
     virtual std::string heading() const = 0;
-    /// How a line is written, for messages: "REGISTER = VALUE".
+    /// Form of a line, for messages: "REGISTER = VALUE".
     virtual std::string form() const = 0;
     virtual std::vector<NamedValue> values() const = 0;
-    /// How often the device has written.
+    /// Number of writes by the device.
     virtual std::uint32_t writes() const = 0;
-    /// A value to restore; false: nobody knows its name, or it is out of range.
+    /// Accepts a value to restore; false: unknown name, or out of range.
     virtual bool take(const NamedValue& value) = 0;
-    /// Puts all that was taken into the device.
+    /// Writes all accepted values into the device.
     virtual void restore() = 0;
 };
 
-/// Devices' memories in text files: a first line that says what it is, then a line `NAME = VALUE` each, in
-/// decimal; `#` begins a comment. A file appears whole or stays as it was.
+/// Device memories in text files: a first line that identifies the file, then one line `NAME = VALUE` each,
+/// in decimal; `#` begins a comment. A file is replaced atomically.
 class MemoryFiles {
   public:
-    /// Restores what is there; a file that is not there is no error, but it must be possible to write it. An
-    /// empty `file` keeps nothing; a further unit's has its address behind it. Answers what went wrong, in
-    /// one line, or nothing.
+    /// Restores an existing file; a missing file is no error, but it must be writable. An empty `file`
+    /// disables storing; the file of a further unit has its address appended. Returns a one-line error, or an
+    /// empty text.
     std::string add(const std::string& file, int address, std::unique_ptr<DeviceMemory> memory);
-    /// Saves what has changed. Answers what went wrong.
+    /// Saves changes. Returns an error, or an empty text.
     std::string save_changed();
 
   private:

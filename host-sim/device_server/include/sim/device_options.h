@@ -11,17 +11,17 @@
 
 namespace nplc::sim {
 
-/// Options is the program's own, with `speed`.
+/// Options is the program's own type, with a member `speed`.
 template <class Options>
 struct DeviceCommandLine {
-    std::optional<Options> options;  ///< nothing after --help or --version
-    std::string error;               ///< one line; empty when it was understood
+    std::optional<Options> options;  ///< empty after --help or --version
+    std::string error;               ///< one line; empty on success
 };
 
-/// The functions below throw std::invalid_argument, with the option and what to write, for other values.
+/// For invalid values the functions below throw std::invalid_argument, with the option and the remedy.
 std::int64_t whole_value(const std::string& option, const std::string& text, std::int64_t min,
                          std::int64_t max);
-/// What stands before and behind the colon of MODEL:ADDRESS; `example` is one, for the message.
+/// The parts before and behind the colon of MODEL:ADDRESS; `example` is one, for the message.
 struct UnitText {
     std::string model;
     std::string address;
@@ -34,7 +34,7 @@ void add_speed(arguments::App& app, const std::string& description, double& spee
 void add_unit(arguments::App& app, const std::string& description,
               const std::function<void(const std::string&)>& take);
 
-/// `device` is what a unit is called in the message.
+/// `device`: name of a unit in messages.
 template <class Units>
 void check_addresses(const Units& units, const std::string& device) {
     std::set<int> addresses;

@@ -12,14 +12,14 @@
 
 namespace nplc::sim {
 
-/// A place where an outside client exchanges bytes with a device, or none.
+/// An endpoint where an outside client exchanges bytes with a device, or none.
 class Endpoint {
   public:
-    /// An empty text opens nothing. Answers what went wrong, in one line, or nothing.
+    /// An empty text opens nothing. Returns a one-line error, or an empty text.
     std::string open(const std::string& endpoint);
     std::vector<std::uint8_t> read();
     void write(const std::vector<std::uint8_t>& bytes);
-    /// "label: tcp:127.0.0.1:4001" and a line's end; nothing if it is none.
+    /// "label: tcp:127.0.0.1:4001" and a line end; empty if there is none.
     std::string described(const std::string& label) const;
 
   private:
@@ -30,34 +30,34 @@ class Endpoint {
 class VirtualDevices {
   public:
     virtual ~VirtualDevices() = default;
-    /// All that happens until then. Answers what went wrong, in one line, or nothing.
+    /// Simulates up to that time. Returns a one-line error, or an empty text.
     virtual std::string advance(Time to) = 0;
-    /// Where clients find it, a line each.
+    /// The endpoints for clients, one line each.
     virtual std::string endpoints() const = 0;
-    /// Standard output belongs to somebody: no status line.
+    /// Standard output is in use by a client: no status line.
     virtual bool has_console() const { return false; }
     /// One line for a terminal.
     virtual std::string status() const = 0;
-    /// The program ends. Answers what went wrong.
+    /// Called when the program ends. Returns an error, or an empty text.
     virtual std::string finish() { return {}; }
 };
 
 struct ServeOptions {
-    std::string program;  ///< its name, before messages
-    double speed = 1;     ///< virtual seconds in a real one
+    std::string program;  ///< its name, as prefix of messages
+    double speed = 1;     ///< virtual seconds per real second
     std::function<Time()> wall_clock;
 };
 
-/// From its start on SIGINT, SIGTERM and SIGHUP end serve() instead of the program.
+/// From now on SIGINT, SIGTERM and SIGHUP end serve() instead of the program.
 void end_on_signals();
-/// Prints the endpoints and `ready`, and serves until a signal. The program's exit code: 0, or 2 with one
-/// line on standard error.
+/// Prints the endpoints and `ready`, and serves until a signal. Returns the exit code: 0, or 2 with one line
+/// on standard error.
 int serve(VirtualDevices& devices, const ServeOptions& options);
-/// "program: message" on standard error; answers 2.
+/// Prints "program: message" on standard error; returns 2.
 int fail(const std::string& program, const std::string& message);
 
-/// A program of virtual devices behind its command line. `open` makes them of the options; the text it is
-/// given says in one line what could not be opened.
+/// Main function of a program with virtual devices. `open` creates them from the options; its text parameter
+/// receives a one-line error.
 template <class Options>
 int serve_devices(const std::string& program, const DeviceCommandLine<Options>& command,
                   std::unique_ptr<VirtualDevices> (*open)(const Options&, std::string&),

@@ -11,19 +11,19 @@
 
 namespace nplc::sim {
 
-/// The line between an outside client, whose bytes come in any amount, and virtual devices, which take and
-/// give a character at a time.
+/// The line between an outside client, which sends any number of bytes at once, and virtual devices, which
+/// send and receive one character at a time.
 class ClientLine {
   public:
     explicit ClientLine(std::uint32_t baud) : to_device(baud, 1), from_device(baud, 1) {}
 
-    /// Waits for the line to be free; beyond 64 KiB it is lost.
+    /// Queued until the line is free; beyond 64 KiB bytes are lost.
     void send(std::span<const std::uint8_t> bytes);
-    /// Lets the next waiting character begin, if the line is free.
+    /// Starts the next queued character if the line is free.
     void start(Time now);
-    /// Lets the devices send their next character, if the line is free, and takes what has arrived at the
-    /// client. `next` answers a device's character, if it has one. Devices that send at once, as to an
-    /// address for all, disturb each other: on the wires a 0 wins over a 1.
+    /// Lets the devices send their next character if the line is free, and receives at the client. `next`
+    /// returns a device's character, if it has one. Devices that send at the same time, as on a broadcast
+    /// address, disturb each other: on the wires a 0 overrides a 1.
     template <class Devices, class Next>
     void transmit(Devices& devices, const Next& next, Time now) {
         std::optional<std::uint8_t> together;
@@ -36,14 +36,14 @@ class ClientLine {
         if (together) from_device.start(*together, now);
         collect(now);
     }
-    /// Takes what has arrived at the client.
+    /// Receives at the client.
     void collect(Time now);
-    /// All that has arrived since the last call.
+    /// The bytes received since the last call.
     std::vector<std::uint8_t> received() { return std::exchange(received_, {}); }
     Time next_event(Time limit) const;
-    /// Both ends from now on. What is on the way is lost: needs is_quiet().
+    /// Sets both ends. Characters in transit are lost: needs is_quiet().
     void set_baud(std::uint32_t baud);
-    /// No character is on the way.
+    /// No character is in transit.
     bool is_quiet(Time now) const;
 
     LineDirection to_device;

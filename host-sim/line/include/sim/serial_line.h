@@ -10,15 +10,15 @@
 
 namespace nplc::sim {
 
-/// What goes wrong with the characters of one direction; each share is 0..1 of all characters.
+/// Faults of one direction; each share is 0..1 of all characters.
 struct LineFaults {
     double drop = 0;
     double damage = 0;   ///< one data bit flipped in 3 of 4 cases, any mixture of bits otherwise
     double framing = 0;  ///< arrives with a framing error and some other value
     double delay = 0;
-    Time longest_delay = std::chrono::milliseconds{5};  ///< a delayed character waits up to this long
-    Time late{0};                                       ///< every character comes so much later
-    Time together{0};  ///< and is held back until the next multiple of this time, as a USB adapter does
+    Time longest_delay = std::chrono::milliseconds{5};  ///< longest delay of a delayed character
+    Time late{0};                                       ///< constant delay of every character
+    Time together{0};  ///< characters are held back until the next multiple of this time, as by a USB adapter
     bool operator==(const LineFaults&) const = default;
 };
 
@@ -35,7 +35,7 @@ struct LineCounters {
 };
 
 /// One direction of an asynchronous line, 10 bits a character (8N1). A character arrives when its stop bit
-/// ends; characters never overtake each other, so those behind a delayed one wait with it and then arrive
+/// ends; characters never overtake each other, so those behind a delayed one wait for it and then arrive
 /// together.
 class LineDirection {
   public:
@@ -44,21 +44,21 @@ class LineDirection {
     bool free(Time now) const { return now >= busy_until_; }
     Time busy_until() const { return busy_until_; }
 
-    /// Needs free(now). Back-to-back characters keep the exact rate over any time.
+    /// Needs free(now). Back-to-back characters keep the exact rate.
     void start(std::uint8_t byte, Time now);
 
     std::optional<Time> next_arrival() const {
         return flying_.empty() ? std::nullopt : std::optional<Time>(flying_.front().arrival);
     }
-    /// The oldest character that has arrived by `now`.
+    /// The oldest character received by `now`.
     std::optional<ports::ReceivedByte> take(Time now);
 
     void set_faults(const LineFaults& faults);
     const LineFaults& faults() const { return faults_; }
     void reseed(std::uint64_t seed);
-    /// At unlike rates every character arrives changed and with a framing error.
+    /// With different rates every character arrives changed and with a framing error.
     void set_rates(std::uint32_t sender, std::uint32_t receiver);
-    /// While cut, characters leave and never arrive; those under way are lost too.
+    /// While cut, sent characters do not arrive; those in transit are lost too.
     void cut();
     void restore() { cut_ = false; }
     bool is_cut() const { return cut_; }
@@ -88,15 +88,15 @@ class LineDirection {
     bool cut_ = false;
     LineFaults faults_;
     bool has_faults_ = false;
-    std::uint8_t last_mask_ = 0;  ///< by which the character before was damaged
+    std::uint8_t last_mask_ = 0;  ///< damage of the previous character
     LineCounters counters_;
     std::mt19937_64 random_;
-    std::uint64_t undrawn_ = 0;  ///< of good characters, whose draws come to nothing
+    std::uint64_t undrawn_ = 0;  ///< good characters whose random draws are still to be skipped
     std::deque<Flying> flying_;
 };
 
-/// A line between the gateway, which has a buffered serial port, and the motor, whose characters are asked
-/// from it and given to it one at a time by whoever runs the world.
+/// A line between the gateway, which has a buffered serial port, and the motor, whose characters the
+/// simulation polls and delivers one at a time.
 class VirtualSerialLine {
   public:
     VirtualSerialLine(std::uint32_t baud, std::uint64_t seed);
@@ -109,11 +109,10 @@ class VirtualSerialLine {
 
     void set_rates(std::uint32_t gateway, std::uint32_t other_end);
 
-    /// Lets the gateway's waiting characters leave and fills its receive buffer. True if something was
-    /// received.
+    /// Sends the gateway's queued characters and fills its receive buffer. True if something was received.
     bool service(Time now);
 
-    /// The gateway has characters that have not left yet.
+    /// The gateway has unsent characters.
     bool has_waiting() const { return !port_.waiting.empty(); }
 
     /// Both directions.

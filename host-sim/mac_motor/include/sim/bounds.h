@@ -4,8 +4,8 @@
 
 namespace nplc::sim {
 
-/// `value` cut to [low, high], as std::clamp. For what hardly ever is outside: the bounds are tested, not
-/// computed with, so that nothing has to wait for them.
+/// `value` limited to [low, high], as std::clamp. For values that are rarely outside: the bounds are tested,
+/// not part of the computation, so that no later operation waits for them.
 inline double within(double value, double low, double high) {
     constexpr double kHardlyEver = 0.999;
     const bool inside = value >= low && value <= high;
@@ -19,7 +19,7 @@ inline double within(double value, double limit) {
 /// 1.5 x 2^52: beyond it a double has no digits after the point.
 inline constexpr double kNoFraction = 6755399441055744;
 
-/// To the nearest integer, halves to the even one: a cast alone would take a little of each torque away.
+/// To the nearest integer, halves to even: a cast would reduce each torque slightly.
 inline std::int32_t nearest(double value) {
     return static_cast<std::int32_t>((value + kNoFraction) - kNoFraction);
 }

@@ -12,7 +12,7 @@
 
 namespace nplc::sim {
 
-/// What the FastMAC/FlexMAC link asks of the motor behind it.
+/// Interface of the FastMAC/FlexMAC link to its motor.
 class LinkTarget {
   public:
     /// A FastMAC command that concerns the motor, not the link.
@@ -28,13 +28,13 @@ class LinkTarget {
     ~LinkTarget() = default;
 };
 
-/// One accepted order, as the motor took it.
+/// An accepted order, as the motor interpreted it.
 struct Order {
     base::Instant at{};
     bool flexmac = false;
     std::uint8_t command = 0;              ///< FastMAC: bits 6..0
     protocol::flexmac::Message message{};  ///< FlexMAC write
-    std::uint8_t reg = 0;   ///< FlexMAC write: the register written, 0 if the address holds none
+    std::uint8_t reg = 0;   ///< FlexMAC write: the register written, 0 if there is none at the address
     bool effective = true;  ///< false in SAFE_MODE, and for a write to no register
 };
 
@@ -52,18 +52,18 @@ class FastMacSlave {
 
     explicit FastMacSlave(const Options& options);
 
-    /// Toggle 0, FastMAC, rapid communication, no pauses. The log stays.
+    /// Toggle 0, FastMAC, rapid communication, no pauses. The log is kept.
     void power_up();
 
     /// A character whose stop bit ended at `now`. A framing error shows until the link is in step again (001
     /// §5.2.1.7): at a good character after an empty one, or a FlexMAC message.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now, LinkTarget& motor);
 
-    /// The next byte to send, asked for whenever the transmitter is free; nothing while it pauses.
+    /// The next byte to send, polled whenever the transmitter is free; empty during a pause.
     std::optional<std::uint8_t> transmit(base::Instant now, const LinkTarget& motor);
 
     const std::deque<Order>& orders() const { return orders_; }
-    /// Takes them out of the log.
+    /// Moves them out of the log.
     std::deque<Order> take_orders() { return std::exchange(orders_, {}); }
 
     bool flexmac() const { return flexmac_; }
@@ -92,7 +92,7 @@ class FastMacSlave {
     std::optional<base::Instant> last_received_;
     std::optional<base::Instant> pause_until_;
     std::deque<std::uint8_t> reply_;
-    std::optional<int> address_due_in_;  // status bytes to go before MYADDR
+    std::optional<int> address_due_in_;  // status bytes until MYADDR
     std::deque<Order> orders_;
 };
 

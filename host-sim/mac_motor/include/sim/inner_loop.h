@@ -17,8 +17,8 @@ inline constexpr std::size_t kPhases = 3;
 template <class T>
 using PerPhase = std::array<T, kPhases>;
 
-/// A number of each phase, computed with as one. A and B share a register of the processor: the same results
-/// as of three doubles, in fewer instructions.
+/// One number per phase, computed together. A and B share a vector register: the same results as with three
+/// doubles, in fewer instructions.
 class Phases {
   public:
     Phases() = default;
@@ -64,7 +64,7 @@ class Phases {
     double c_ = 0;
 };
 
-/// A turn of the field in the registers' 2048 steps. Computed when compiled, by additions and
+/// A field revolution in the registers' 2048 steps. Computed at compile time, by additions and
 /// multiplications: the same on every machine.
 class SineTable {
   public:
@@ -112,7 +112,7 @@ inline constexpr SineTable kSine{};
 class CurrentRegulator {
   public:
     struct Settings {
-        Phases kifx2, kifx1, kify1, kify0, kib1, kib0;  ///< each the same three times
+        Phases kifx2, kifx1, kify1, kify0, kib1, kib0;  ///< the same three times
         double amplitude = 0;
         std::int64_t phase_comp_256 = 0;
         Phases gain{1, 1, 1};  ///< KIA, KIB, KIC
@@ -154,18 +154,18 @@ class CurrentRegulator {
         if (std::abs(amplitude) > kLargest) wanted_ = wanted_.within(kLargest);
         wanted_ = wanted_.nearest();
     }
-    /// Regulates what was measured to what was asked for; the answer is in `voltage`.
+    /// Regulates the measured currents to the wanted ones; the result is in `voltage`.
     void regulate() {
         const Phases error = wanted_ - (measured_ * s_.kib1 + measured_before_ * s_.kib0);
         const Phases kept = error_before_ * s_.kifx1 + output_ * s_.kify1 + output_before_ * s_.kify0;
-        const Phases output = (error * s_.kifx2 + kept).within(kRange);  // so that it cannot wind up
+        const Phases output = (error * s_.kifx2 + kept).within(kRange);  // anti-windup
         measured_before_ = measured_;
         error_before_ = error;
         output_before_ = output_;
         output_ = output;
         voltage_ = output.nearest();
     }
-    /// No regulation: these voltages, and filters that have forgotten.
+    /// No regulation: applies these voltages and clears the filters.
     void apply(const PerPhase<std::int32_t>& voltage);
 
     Phases wanted() const { return wanted_; }      ///< IA_SOLL ..., whole
@@ -173,7 +173,7 @@ class CurrentRegulator {
     Phases voltage() const { return voltage_; }    ///< UA_VAL ...
     std::int32_t i_nom() const { return i_nom_; }
     std::int32_t phi_soll() const { return phi_; }
-    /// A current was at the end of its measuring range since this was cleared.
+    /// A current was at the end of its measuring range since the last clear.
     bool at_the_end() const { return at_the_end_; }
     void clear_at_the_end() { at_the_end_ = false; }
 
@@ -193,7 +193,7 @@ class CurrentRegulator {
     bool at_the_end_ = false;
 };
 
-/// The loop as the registers have it.
+/// The loop's settings from the registers.
 CurrentRegulator::Settings current_settings(const MotorMemory& memory);
 
 /// Three windings in a star whose middle is open, on a rotor with a sinusoidal field. Currents and voltages
@@ -202,7 +202,7 @@ class Winding {
   public:
     struct Constants {
         double resistance;  ///< voltage a current
-        double decay;       ///< what is left of a current after a step without voltage: exp(-T R / L)
+        double decay;       ///< factor of a current per step without voltage: exp(-T R / L)
         double emf;         ///< voltage a count/step
         double torque;      ///< 1023 over the current that full torque takes
     };
@@ -219,7 +219,7 @@ class Winding {
           torque_(constants.torque / 3.0) {}
 
     /// `voltage` at the terminals, times `supply` (1: nominal); rotor at `angle`, 0 to 2047, at `velocity`
-    /// counts/step. The torque is that of the currents' mean.
+    /// counts/step. The torque is that of the mean current.
     Step step(Phases voltage, double supply, std::int32_t angle, double velocity) {
         const double middle = voltage.sum() * (1 / 3.0);
         const Phases shapes = kSine.phases(angle);
@@ -242,8 +242,8 @@ class Winding {
     Phases current_;
 };
 
-/// The current loop at its own rate, with the windings and the rotor that it acts on (001 §1.2, §4.3).
-/// A sample is `sense`, one call that sets voltages, then `move`.
+/// The current loop at its own rate, with windings and rotor (001 §1.2, §4.3). A sample is `sense`, one call
+/// that sets voltages, then `move`.
 class InnerLoop {
   public:
     struct HallSettings {
@@ -272,7 +272,7 @@ class InnerLoop {
     }
     void drive_field(std::int32_t i_nom, std::int32_t angle);
     void drive_voltage(const PerPhase<std::int32_t>& voltage) { regulator_.apply(voltage); }
-    /// The sample itself. Answers the watts that went into the windings.
+    /// One sample. Returns the watts into the windings.
     double move(Plant& plant, double supply_volts) {
         supply_volts_ = supply_volts;
         const double velocity = plant.velocity();
@@ -298,7 +298,8 @@ class InnerLoop {
     }
     double regenerated() const;  ///< Preg of 001 §3.2.18, watts, 0 at the least
 
-    /// What the converters give without a current is the negative of this (ours): what IA_OFFSET ... find.
+    /// The converters' output without current is the negative of this (own choice): the values found for
+    /// IA_OFFSET ...
     static constexpr PerPhase<std::int32_t> kMiddle{1021, 1030, 1017};
 
   private:
@@ -342,9 +343,8 @@ class InnerLoop {
     bool at_mark_ = false;  // has been at the hall elements' mark
 };
 
-/// What windings and current loop do in an outer sample, in one step: the torque comes as the loop with the
-/// coefficients from the box gives it, within what the supply can drive against the EMF. Currents and
-/// voltages in the registers' units.
+/// Windings and current loop over one outer sample, in one step: the torque response of the loop with factory
+/// coefficients, limited by the supply against the EMF. Currents and voltages in the registers' units.
 class QuickLoop {
   public:
     struct Step {
@@ -354,10 +354,10 @@ class QuickLoop {
 
     explicit QuickLoop(const MotorConstants& constants);
 
-    /// No torque in the sample before.
+    /// The previous sample had no torque.
     void rest() { torque_before_ = 0; }
 
-    /// A sample with `torque` asked for and `volts` on the bus.
+    /// A sample with requested `torque` and `volts` on the bus.
     Step drive(double torque, double volts, Plant& plant) {
         const double asked = torque_before_ + (torque - torque_before_) * kRise;
         torque_before_ = torque;
@@ -369,12 +369,12 @@ class QuickLoop {
         return {.squares = 1.5 * current * current,
                 .watts = (emf + current * resistance_) * current * watts_of_one_};
     }
-    /// A sample with shorted windings: they brake with the current that their EMF drives.
+    /// A sample with shorted windings, which brake with the current from their EMF.
     Step brake(Plant& plant);
 
   private:
-    /// Of a change of torque, what the current loop gives on the average of the sample: after n samples of
-    /// its own 1 - (1 + 0.6 n) 0.4^n, with the coefficients from the box.
+    /// Average response of the current loop to a torque change over the sample: after n inner samples it is 1
+    /// - (1 + 0.6 n) 0.4^n, with factory coefficients.
     static constexpr double kRise = 0.878;
 
     double reachable(double torque, double velocity, double volts) const {

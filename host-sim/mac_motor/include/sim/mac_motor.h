@@ -28,15 +28,15 @@ struct MacMotorOptions {
     /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
     bool old_register_codes = false;
     std::size_t order_limit = 100'000;
-    /// How much of the motor is computed. `outer_loop` is some ten times as fast, and close in position and
+    /// Depth of the motor's computation. `outer_loop` is some ten times as fast, and close in position and
     /// velocity.
     Servo::Depth depth = Servo::Depth::current_loop;
     Load load{};
 };
 
-/// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
-/// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
-/// `sample_period`. Deterministic: the same calls give the same motion on every machine.
+/// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller passes
+/// bytes with their times, polls bytes when the line is free, and calls `sample` once every `sample_period`.
+/// Deterministic: the same calls give the same motion on every machine.
 class MacMotor final : private LinkTarget, private MacTalkTarget {
   public:
     explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
@@ -49,11 +49,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
     [[gnu::flatten]] void sample();
 
-    /// The same without supply: the shaft runs out, or follows its load; V_IST shows it, and P_IST does not
+    /// The same without supply: the shaft coasts or follows its load; V_IST shows it, and P_IST does not
     /// count it. A holding brake holds.
     void coast();
 
-    /// The user interface, see FastMacSlave. Dead if CNTRL_BITS chose another use of the pins at power-up.
+    /// The user interface, see FastMacSlave. Inactive if CNTRL_BITS selected another use of the pins at
+    /// power-up.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now);
     std::optional<std::uint8_t> transmit(base::Instant now);
     const FastMacSlave& link() const { return link_; }
@@ -68,7 +69,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
 
     /// A register by its own width and sign; unknown ones as unsigned words (MAC800: longwords).
     std::int32_t read(std::uint8_t reg) const;
-    /// As a line writes it, with all effects: MODE_REG asks for a mode, P_REG_P ... Z_REG_P act.
+    /// As a write over a line, with all effects: MODE_REG requests a mode, P_REG_P ... Z_REG_P act.
     void write(std::uint8_t reg, std::int32_t value, bool longword);
     /// The same by the register's own width.
     void write(std::uint8_t reg, std::int32_t value);
@@ -83,10 +84,10 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     bool in_position() const { return (error_status() & err::IN_POS) != 0; }
     std::uint32_t err_stat() const { return error_status(); }
 
-    /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
-    /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
+    /// Why the motor is at rest in the requested mode, as a sentence: a gear mode without the pins of the
+    /// pulse input, or TESTTQ, which the manual does not describe. Empty if there is no reason.
     std::string_view note() const { return modes_.note(); }
-    /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
+    /// As if I2T had exceeded its limit for a moment: I2T_ERR with all its consequences.
     void overload() { modes_.fail(err::I2T_ERR); }
     /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. A brake that
     /// is built in (Load::brake_torque) then holds the shaft.
@@ -98,21 +99,21 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     bool leave_safe_mode();
     /// Out of SAFE at once, out of any other mode through STOP (001 §5.1, message 55h).
     void go_to_init() override;
-    /// Keeps the present registers and resets; false and nothing done outside of SAFE (001 §5.1, message
+    /// Stores the present registers and resets; false, without effect, outside of SAFE (001 §5.1, message
     /// 56h).
     bool write_flash() override;
-    /// As after power-up; false and nothing done unless in INIT or SAFE (message 57h).
+    /// As after power-up; false, without effect, unless in INIT or SAFE (message 57h).
     bool reset() override;
 
-    /// Keeps the present registers over `power_cycle`, as a write to flash does: parameters, not what the
-    /// motor counts and shows.
+    /// Keeps the present registers over `power_cycle`, as a write to flash does: the parameters, not the
+    /// values that the motor counts and shows.
     void store_registers();
-    /// The parameter flash, for whoever keeps it over the program's end.
+    /// The parameter flash, for storing it beyond the program's end.
     const MotorMemory& stored() const { return stored_; }
     void set_stored(const MotorMemory& stored) { stored_ = stored; }
-    /// How often the motor has written its flash since it was built.
+    /// Number of flash writes since construction.
     std::uint32_t flash_writes() const { return flash_writes_; }
-    /// Off and on: stored registers, P_IST and P_FNC 0, toggle 0, STARTMODE. The shaft stays where it is.
+    /// Off and on: stored registers, P_IST and P_FNC 0, toggle 0, STARTMODE. The shaft does not move.
     void power_cycle();
 
     /// Load and mechanical stops, changeable in motion.
@@ -120,7 +121,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     const Plant& plant() const { return servo_.plant(); }
     /// Changeable at any time; U_SUPPLY (MAC800: U_BUS) follows.
     Supply& supply() { return servo_.supply(); }
-    /// What is wired to the analogue and the pulse input, changeable at any time.
+    /// Signals at the analogue and the pulse input, changeable at any time.
     Terminals& terminals() { return inputs_.terminals; }
     Surroundings& surroundings() { return inputs_.surroundings; }
 

@@ -10,8 +10,8 @@
 
 namespace nplc::sim {
 
-/// Switching of modes (001 §4.4, §5.2.1.4 command 10h) and what a mode does without being asked. What a mode
-/// is, and how it is left, is in the mode table.
+/// Mode changes (001 §4.4, §5.2.1.4 command 10h) and the automatic actions of a mode. The properties of a
+/// mode, and how it is left, are in the mode table.
 class ModeControl {
   public:
     ModeControl(MotorState& state, MotionProfile& profile, const MotorInputs& inputs, const Servo& servo)
@@ -19,26 +19,26 @@ class ModeControl {
 
     void power_up();
 
-    /// Nothing in SAFE_MODE, and for SAFE_MODE: its doors are MacTalk's.
+    /// No effect in SAFE_MODE, and for SAFE_MODE: it is entered and left over MacTalk only.
     void request_mode(std::uint16_t mode);
     /// The mode that HOME_MODE names for FastMAC's command.
     void request_home();
-    /// 001 §4.1.8, §4.4.1: to INIT as the mode allows it.
+    /// 001 §4.1.8, §4.4.1: to INIT in the way that the mode allows.
     void go_passive(bool emergency);
-    /// Shows the error and all that follows from it.
+    /// Sets the error with all its consequences.
     void fail(std::uint32_t error);
 
-    /// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: what a mode does without being asked.
+    /// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: automatic actions of a mode.
     void end_mode_by_itself() {
         if (state_.facts().driven() && !state_.is_mode(MotorMode::stop) && !coasting_) return;
         end_stop_or_test();
     }
     /// A sample of a homing mode.
     void search_home();
-    /// What a mode without speed regulator asks of the servo.
+    /// The Drive of a mode without speed regulator.
     Drive test_drive() const;
 
-    /// Why the motor stands in the mode that it was asked for, as a sentence; empty if all is well.
+    /// Why the motor is at rest in the requested mode, as a sentence; empty if there is no reason.
     std::string_view note() const { return note_; }
 
   private:
@@ -70,7 +70,7 @@ class ModeControl {
     std::uint16_t mode_after_stop_ = 0;
     bool coasting_ = false;             // AT on its way to INIT
     int test_samples_ = 0;              // of TESTU and TESTA
-    std::int32_t brake_direction_ = 0;  // BREAK: the sign of the motion that it ends
+    std::int32_t brake_direction_ = 0;  // BREAK: sign of the motion to be ended
     std::string_view note_;
 };
 

@@ -7,10 +7,10 @@
 
 namespace nplc::sim {
 
-/// VF_OUT's and T_SOLL's most: the motor's full torque.
+/// Limit of VF_OUT and T_SOLL: the motor's full torque.
 inline constexpr std::int32_t kFullTorque = 1023;
 
-/// What a mode asks of everything below the profile for one sample of the outer loop (001 §4.4: which
+/// What a mode requests from the stages below the profile for one sample of the outer loop (001 §4.4: which
 /// regulators are active).
 struct Drive {
     enum class Kind : std::uint8_t {
@@ -61,7 +61,7 @@ constexpr std::uint16_t number(MotorMode mode) {
     return static_cast<std::uint16_t>(mode);
 }
 
-/// What 001 §4.4 says of a mode.
+/// Properties of a mode in 001 §4.4.
 struct ModeFacts {
     /// The function block (001 §4.1).
     enum class Block : std::uint8_t {
@@ -74,10 +74,10 @@ struct ModeFacts {
         homing,             ///< §4.4.13 to §4.4.15
         stop,               ///< §4.1.8
     };
-    /// The way out.
+    /// How the mode is left.
     enum class Leave : std::uint8_t {
-        at_once,   ///< the motor stands, or may be left as it is
-        stopping,  ///< to INIT, and to a mode that begins at rest, through STOP
+        at_once,   ///< the motor is at rest, or may be left as it is
+        stopping,  ///< to INIT, and to a mode that must begin at rest, through STOP
         coasting,  ///< to INIT only, without torque until the motor is slow (AT)
         test,      ///< ends by itself; before that to INIT only, through STOP (TESTA, BREAK)
     };
@@ -96,14 +96,14 @@ struct ModeFacts {
     bool homing() const { return block == Block::homing; }
     /// The speed regulator is active.
     bool driven() const { return drive == Drive::Kind::velocity; }
-    /// Gear factor and pulses decide the motion.
+    /// Gear factor and pulses determine the motion.
     bool geared() const { return block == Block::gear || block == Block::coil; }
 };
 
 inline constexpr std::size_t kModeCount = 25;
 extern const std::array<ModeFacts, kModeCount> kModes;
 
-/// Null: there is no such mode.
+/// Null if there is no such mode.
 inline const ModeFacts* facts_of(std::uint16_t mode) {
     return mode < kModes.size() ? &kModes[mode] : nullptr;
 }

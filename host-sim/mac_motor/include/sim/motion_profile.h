@@ -10,8 +10,8 @@
 
 namespace nplc::sim {
 
-/// What a mode makes of registers and inputs in each sample: the velocity that the servo is to follow, P_FNC,
-/// the follow error and IN_POS (001 §4.1, §4.4.2 to §4.4.4).
+/// The motion profile of each sample from registers and inputs: the velocity for the servo, P_FNC, the follow
+/// error and IN_POS (001 §4.1, §4.4.2 to §4.4.4).
 class MotionProfile {
   public:
     MotionProfile(MotorState& state, const MotorInputs& inputs, Servo& servo)
@@ -21,31 +21,31 @@ class MotionProfile {
 
     /// MAN_RESYNC and AUTO_RESYNC (001 §3.2.163).
     void resynchronise();
-    /// A sample of a mode with speed regulator.
+    /// One sample in a mode with speed regulator.
     [[gnu::flatten]] void run();
     [[gnu::flatten]] void judge_in_position();
-    /// A sample of a mode without.
+    /// One sample in a mode without.
     void stay_passive(const Drive& drive);
 
-    /// A mode begins, another than the present one.
+    /// Entry of a mode other than the present one.
     void begin_mode(const ModeFacts& next);
     void begin_stop() { v_from_ = v_old_; }
-    /// Out of a mode without speed regulator: the profile begins where the shaft is and as fast as it is.
+    /// After a mode without speed regulator: the profile begins with the shaft's position and speed.
     void begin_at_measured_speed();
 
     void begin_homing(Homing::Method method);
-    /// A sample of a homing mode. True: this is the zero.
+    /// One sample in a homing mode. True: this is the zero.
     bool search_home();
-    /// The shaft is at `position`, and the profile begins anew from there.
+    /// Sets the shaft's position to `position` and restarts the profile from there.
     void take_position(std::int32_t position);
 
-    /// P register `index` becomes the target, as FastMAC selects it.
+    /// P register `index` becomes the target, as selected over FastMAC.
     void select_position(int index);
     void clear_in_position() {
         samples_within_ = 0;
         state_.set_error_bits(err::IN_POS, false);
     }
-    /// A line wrote FLWERR.
+    /// FLWERR was written over a line.
     void take_follow_error() { follow_error_16_ = 16 * std::int64_t{memory_.get(cell::FLWERR)}; }
 
   private:
@@ -56,7 +56,7 @@ class MotionProfile {
     Coil::Setup coil_setup() const;
     void show_gear_error();
     std::int32_t analogue_v_soll() const;
-    /// P_SOLL or P_FNC of the position block, where the voltage sets them.
+    /// Sets P_SOLL or P_FNC of the position block from the analogue voltage.
     void set_target_by_voltage() {
         if (state_.is_mode(MotorMode::analogue_two_positions)) set_target_by_level();
         if (state_.is_mode(MotorMode::analogue_position)) set_target_by_place();
@@ -83,12 +83,14 @@ class MotionProfile {
     Gear gear_;
     Coil coil_;
     Homing homing_;
-    std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
-    std::int32_t v_from_ = 0;             // what the next profile begins with: V_OLD, 0 if it was thrown back
-    std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
-    std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
-    std::int64_t distance_to_go_ = 0;     // as the last sample of position mode left it, 1/16 counts
-    std::int32_t samples_within_ = 0;     // INPOSWIN
+    std::int32_t v_old_ = 0;  // V_OLD, 1/16 counts/sample
+    std::int32_t v_from_ =
+        0;  // initial velocity of the next profile: V_OLD, 0 after a reversal by the torque limit
+    std::int64_t follow_error_16_ = 0;  // FLWERR, 1/16 counts
+    std::int32_t corrected_braking_ =
+        0;  // effective braking in torque limit, 1/16 counts/sample^2; 0: A_SOLL applies
+    std::int64_t distance_to_go_ = 0;  // at the end of the last sample in position mode, 1/16 counts
+    std::int32_t samples_within_ = 0;  // INPOSWIN
 };
 
 }  // namespace nplc::sim

@@ -9,7 +9,7 @@
 
 namespace nplc::sim {
 
-/// What FastMAC's commands do to the registers (001 §5.2.1.4), and register mode (001 §3.2.43 - 48).
+/// Effects of FastMAC commands on the registers (001 §5.2.1.4), and register mode (001 §3.2.43 - 48).
 class MotorCommands {
   public:
     MotorCommands(MotorState& state, MotionProfile& profile, ModeControl& modes)

@@ -11,13 +11,13 @@
 
 namespace nplc::sim {
 
-/// How a generator speaks to the pulse input (001 §3.2.36, PULSEDIR).
+/// Signal format of a generator at the pulse input (001 §3.2.36, PULSEDIR).
 enum class PulseFormat : std::uint8_t {
     quadrature,           ///< four counts a period of its lines
     pulse_and_direction,  ///< one count a pulse
 };
 
-/// What the pulse input's pins are set to at power-up (001 §3.2.36 bits 0 to 4; 004 HW_SETUP).
+/// Configuration of the pulse input's pins at power-up (001 §3.2.36 bits 0 to 4; 004 HW_SETUP).
 class PulseInput {
   public:
     /// R: MAC800 (004 gives names only): XPRINP is PULSEDIR, INVXDIR is INPSIGN, NOFILT is HICLK; the input
@@ -25,9 +25,9 @@ class PulseInput {
     void configure(registers::Model model, std::int32_t cntrl_bits, std::int32_t hw_setup);
 
     bool on() const { return on_; }
-    /// Counts of V_EXT for each count of the generator: this over four, with the sign. 0: none arrive.
-    /// R: above the filter's frequency nothing passes; quadrature on an input for pulses counts one edge of
-    /// four, pulses on one for quadrature count to and fro.
+    /// Counts of V_EXT per count of the generator: this over four, with the sign. 0: none. R: above the
+    /// filter's frequency nothing passes; quadrature on an input for pulses counts one edge of four, pulses
+    /// on one for quadrature count back and forth.
     int quarters(PulseFormat generator, std::int64_t counts_per_second) const;
 
   private:
@@ -37,16 +37,16 @@ class PulseInput {
     PulseFormat format_ = PulseFormat::quadrature;
 };
 
-/// A switch at the axis: 10 V on one side of a place, 0 V on the other.
+/// A switch at the axis: 10 V on one side of a position, 0 V on the other.
 struct PositionSensor {
     std::int64_t counts = 0;  ///< of the shaft, as Plant counts them
     bool on_above = true;     ///< else on below
 };
 
-/// What is wired to the motor's analogue input and, where the pins are free for it, to its pulse input.
+/// Signals at the motor's analogue input and, if its pins are free, at its pulse input.
 class Terminals {
   public:
-    /// A voltage for good: takes a sensor off.
+    /// Sets a constant voltage; removes a sensor.
     void set_analogue(std::int32_t millivolts);
     void connect(const PositionSensor& sensor) { sensor_ = sensor; }
     std::int32_t millivolts(std::int64_t shaft_counts) const {
@@ -77,14 +77,14 @@ constexpr std::int32_t analogue_full_scale(registers::Model model) {
     return is_mac800(model) ? 2048 : 1023;
 }
 
-/// Millivolts as ANINP has them before ANINP_OFFSET: 10 V are 1023 (001 §3.2.122), on MAC800 2048 (004).
-/// What is beyond +/- 10 V reads as 10 V.
+/// ANINP for a voltage in millivolts, before ANINP_OFFSET: 10 V are 1023 (001 §3.2.122), on MAC800 2048
+/// (004). Voltages beyond +/- 10 V read as 10 V.
 constexpr std::int32_t analogue_register(registers::Model model, std::int32_t millivolts) {
     constexpr std::int32_t kFullScale = 10'000;  // mV
     return std::clamp(millivolts, -kFullScale, kFullScale) * analogue_full_scale(model) / kFullScale;
 }
 
-/// The same for a voltage that hardly ever changes.
+/// The same, cached for a voltage that rarely changes.
 class AnalogueVoltage {
   public:
     std::int32_t of(registers::Model model, std::int32_t millivolts) {
@@ -120,15 +120,14 @@ class AnalogueLevel {
     bool on_ = false;
 };
 
-/// What a MAC800 feels of its surroundings beside its terminals (004); changeable at any time.
+/// Ambient conditions of a MAC800 besides its terminals (004); changeable at any time.
 struct Surroundings {
     static constexpr std::int32_t kRoom = 25;
     std::int32_t celsius = kRoom;
     std::int32_t logic_millivolts = 24'000;
     bool encoder_broken = false;
 
-    /// What is to be added to the DEGC that the servo shows, which takes the air to be at room temperature.
-    /// 0.12207 degrees each.
+    /// Correction of the servo's DEGC, which assumes air at room temperature. 0.12207 degrees each.
     std::int32_t degc() const {
         return static_cast<std::int32_t>(std::int64_t{celsius - kRoom} * 100'000 / 12'207);
     }
@@ -138,8 +137,8 @@ struct Surroundings {
     }
 };
 
-/// What the motor reads of its terminals and surroundings in each sample: ANINP and its logic level, V_EXT,
-/// DEGC and U_24V (001 §3.2.120, §3.2.122; 004).
+/// Reads terminals and ambient conditions in each sample: ANINP and its logic level, V_EXT, DEGC and U_24V
+/// (001 §3.2.120, §3.2.122; 004).
 class MotorInputs {
   public:
     explicit MotorInputs(MotorState& state) : state_(state), level_(state.model()) {}
@@ -151,7 +150,7 @@ class MotorInputs {
     const PulseInput& pulse_input() const { return pulse_input_; }
     /// The analogue input is on.
     bool level() const { return level_.on(); }
-    /// It was not what it is in the sample before.
+    /// It has changed since the previous sample.
     bool level_changed() const { return level_.on() != level_was_on_; }
 
     Terminals terminals;

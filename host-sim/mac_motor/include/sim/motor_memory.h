@@ -14,7 +14,7 @@ constexpr bool is_mac800(registers::Model model) {
     return model == registers::Model::mac800;
 }
 
-/// A register as the motor's program uses it: where it stands on either family, and how it is read.
+/// A register as used by the motor's program: its place in either family, and its type.
 struct Cell {
     enum class Kind : std::uint8_t { word, integer, long_int };
     std::uint8_t small;  ///< number on MAC50-141 (001 §3.2); 0: that family has none
@@ -79,8 +79,8 @@ inline constexpr Cell ELDEGN_OFFSET = word(124, 0), ELDEGP_OFFSET = word(125, 0)
                       OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23);
 }  // namespace cell
 
-/// A register that the regulators' filters and the commutation are made of (001 §3.2.13, §3.2.89 to §3.2.111,
-/// §3.2.124 to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150; 004).
+/// Whether a register is a coefficient of the regulators' filters or the commutation (001 §3.2.13, §3.2.89 to
+/// §3.2.111, §3.2.124 to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150; 004).
 constexpr bool is_setting(registers::Model model, std::uint8_t reg) {
     const auto in = [reg](int first, int last) { return reg >= first && reg <= last; };
     if (reg == 13) return true;  // KVOUT
@@ -88,33 +88,32 @@ constexpr bool is_setting(registers::Model model, std::uint8_t reg) {
     return in(89, 111) || in(124, 127) || in(140, 142) || in(148, 150);
 }
 
-/// All registers of one motor, as numbers: what the motor's program reads in each sample is there as it is
-/// used. The line sees words. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
-/// word) and the next (001 §3.1, §3.2). MAC800: a longword each (004). Registers nobody wrote read 0; nothing
-/// is refused.
+/// All registers of one motor, as numbers in the form that the motor's program uses in each sample. The line
+/// sees words. MAC50-141: 16-bit words by register number, a LongInt takes its number (low word) and the next
+/// (001 §3.1, §3.2). MAC800: one longword each (004). Unwritten registers read 0; no access is refused.
 class MotorMemory {
   public:
     explicit MotorMemory(registers::Model model) : model_(model), mac800_(is_mac800(model)) {}
 
     registers::Model model() const { return model_; }
 
-    /// Value by the cell's kind; a cell that the model lacks reads 0 and is not written.
+    /// Value by the cell's kind; a cell that the model does not have reads 0 and is not written.
     std::int32_t get(Cell cell) const { return values_[place_of(cell)]; }
-    /// Cut to the cell's width.
+    /// Truncated to the cell's width.
     void set(Cell cell, std::int32_t value) {
         const std::size_t place = place_of(cell);
         if (place == kNowhere) return;
         values_[place] = mac800_ ? value : cut(cell.kind, value);
         if (is_setting(cell)) settings_written_.yes = true;
     }
-    /// For what the motor shows, no setting: the value without its fraction, at the end of the cell's range
-    /// if it is beyond that. Answers what stands there.
+    /// For display values that are no settings: truncated to an integer and limited to the cell's range.
+    /// Returns the stored value.
     std::int32_t show(Cell cell, double value) {
         const std::size_t place = place_of(cell);
         return place == kNowhere ? 0 : values_[place] = shown(cell.kind, value);
     }
 
-    /// The same for FF_OUT and VB_OUT, which only lines read: they are not cut before one does.
+    /// The same for FF_OUT and VB_OUT, which only lines read: converted when they are read.
     void show_filters(double ff_out, double vb_out) { filters_ = {ff_out, vb_out, true}; }
 
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
@@ -122,11 +121,11 @@ class MotorMemory {
     std::uint32_t read(std::uint8_t reg, bool longword) const;
     void write(std::uint8_t reg, std::uint32_t value, bool longword);
 
-    /// A setting may have been written since this was asked last. All of a copy may be new.
+    /// Whether a setting may have been written since the last call. True for a new copy.
     bool take_settings_written() { return std::exchange(settings_written_.yes, false); }
 
   private:
-    /// A copy does not know what was read of the original.
+    /// A copy does not take over what was already read of the original.
     struct Written {
         bool yes = true;
 
@@ -140,7 +139,7 @@ class MotorMemory {
     static constexpr std::size_t kPlaces = 257;       // a longword at 255 reaches beyond the last number
     static constexpr std::size_t kNowhere = kPlaces;  // always 0
 
-    /// In either family, which is known when compiled; the other's is taken for one too, at no harm.
+    /// In either family, evaluated at compile time; treating the other family's as a setting too is harmless.
     static constexpr bool is_setting(Cell cell) {
         return sim::is_setting(registers::Model::mac140, cell.small) ||
                sim::is_setting(registers::Model::mac800, cell.big);
@@ -166,7 +165,7 @@ class MotorMemory {
     struct Filters {
         double ff_out = 0;
         double vb_out = 0;
-        bool newer = false;  ///< than what stands in values_
+        bool newer = false;  ///< newer than the value in values_
     };
 
     registers::Model model_;
@@ -176,7 +175,7 @@ class MotorMemory {
     std::array<std::int32_t, kPlaces + 1> values_{};  // by number; a LongInt's second number is not used
 };
 
-/// The values of a motor from its box; ours, see the folder's README.
+/// Factory values of a motor; own choice, see the folder's README.
 void write_defaults(MotorMemory& memory, std::uint8_t address);
 
 }  // namespace nplc::sim

@@ -10,7 +10,7 @@
 
 namespace nplc::sim {
 
-/// 001 §4.5 and the errors of 004's ERR_STAT: what is watched in every sample and every mode.
+/// 001 §4.5 and the errors of 004's ERR_STAT: monitoring in every sample and every mode.
 class MotorMonitor {
   public:
     MotorMonitor(MotorState& state, ModeControl& modes, const Servo& servo, const Surroundings& surroundings)
@@ -24,7 +24,7 @@ class MotorMonitor {
     void watch_supply();
     void watch_currents();
     void watch_mac800();
-    /// A limit of 0 is none (001 §4.5.4, §4.5.5).
+    /// A limit of 0 means no limit (001 §4.5.4, §4.5.5).
     bool exceeds(Cell value, Cell limit) const {
         const std::int64_t most = memory_.get(limit);
         return most > 0 && std::abs(std::int64_t{memory_.get(value)}) > most;

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t DEGC_ERR = 1U << 8, OV_ERR = 1U << 11, SPEED_ERR 
                                INDEX_ERR = 1U << 15, OLD_FILT_ERR = 1U << 16, U24V_ERR = 1U << 17;
 }  // namespace err800
 
-/// Bits that the families put in different places. A mask of 0: the family has no such bit.
+/// Bits whose position differs between the families. A mask of 0: the family has no such bit.
 struct FamilyBits {
     std::uint32_t frame_err_tx;  ///< ERR_STAT
     std::uint32_t uv_err;        ///< ERR_STAT
@@ -65,8 +65,8 @@ inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
                                        .home_done = 0,
                                        .counts_to_index = 2048};
 
-/// MAC800's further errors: 8 temperature, 9 undervoltage, 11 overvoltage, 12 current, 13 speed, 15 encoder,
-/// 17 24 V.
+/// MAC800's additional errors: 8 temperature, 9 undervoltage, 11 overvoltage, 12 current, 13 speed, 15
+/// encoder, 17 24 V.
 inline constexpr FamilyBits kMac800Bits{.frame_err_tx = 0,
                                         .uv_err = 1U << 9,
                                         .uv_detect = 1U << 10,
@@ -91,7 +91,7 @@ constexpr const FamilyBits& family_bits(registers::Model model) {
     return model == registers::Model::mac800 ? kMac800Bits : kSmallBits;
 }
 
-/// The motor's registers, and what its program reads of them in every sample. All parts of a motor share one.
+/// The motor's registers, and the values read from them in every sample. Shared by all parts of a motor.
 class MotorState {
   public:
     explicit MotorState(registers::Model model) : memory(model), bits_(&family_bits(model)) {}
@@ -112,7 +112,7 @@ class MotorState {
 
     std::uint16_t mode() const { return static_cast<std::uint16_t>(memory.get(cell::MODE_REG)); }
     bool is_mode(MotorMode mode) const { return this->mode() == number(mode); }
-    /// `mode` is one of the table.
+    /// `mode` must be in the table.
     void set_mode(std::uint16_t mode) {
         memory.set(cell::MODE_REG, mode);
         facts_ = facts_of(mode);
@@ -138,7 +138,7 @@ class MotorState {
     /// ERR_STAT
     std::uint32_t error_status() const { return static_cast<std::uint32_t>(memory.get(cell::ERR_STAT)); }
     void set_error_bits(std::uint32_t mask, bool on) { show_error_bits(mask, on ? mask : 0); }
-    /// Those of `mask` become those of `on`.
+    /// Replaces the bits of `mask` by those of `on`.
     void show_error_bits(std::uint32_t mask, std::uint32_t on) {
         const std::uint32_t status = error_status();
         const std::uint32_t wanted = (status & ~mask) | on;

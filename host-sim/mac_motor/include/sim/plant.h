@@ -11,37 +11,36 @@ namespace nplc::sim {
 
 /// A mechanical end of travel.
 struct MechanicalStop {
-    std::int64_t counts = 0;  ///< where it begins, encoder counts from where the motor was built
-    /// Torque that each count into it gives back, x 1024; 0: rigid, all motion ends there. A springy one
-    /// swallows the motion too: it pushes back, it does not throw.
+    std::int64_t counts = 0;  ///< start position, encoder counts from the shaft's initial position
+    /// Restoring torque per count of penetration, x 1024; 0: rigid, all motion ends there. A spring also
+    /// absorbs the motion: it pushes back without rebound.
     std::int64_t spring_1024 = 0;
 };
 
-/// What the motor's shaft is coupled to. Torques as in T_SOLL: 1023 is the motor's full torque.
+/// The load of the motor's shaft. Torques as in T_SOLL: 1023 is the motor's full torque.
 struct Load {
     static constexpr std::int32_t kLatest = 90;
 
-    double inertia_256 = 256;       ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
+    double inertia_256 = 256;       ///< total inertia over the motor's own, x 256 (KVOUT's meaning)
     double friction_torque = 5;     ///< Coulomb friction
     std::int32_t brake_torque = 0;  ///< of a holding brake (MAC800's output); 0: none is built in
-    double torque = 0;              ///< constant pull, positive turns the shaft forward
-    double viscous_torque = 0;      ///< friction more for each count/sample of the outer loop
+    double torque = 0;              ///< constant load torque, positive turns the shaft forward
+    double viscous_torque = 0;      ///< additional friction per count/sample of the outer loop
     std::int32_t late_inner_samples =
         0;  ///< by which torque comes later than the current loop gives it, to kLatest
-    std::optional<MechanicalStop> low_stop{};   ///< below which the shaft is held
-    std::optional<MechanicalStop> high_stop{};  ///< above which it is
+    std::optional<MechanicalStop> low_stop{};   ///< the shaft cannot go below it
+    std::optional<MechanicalStop> high_stop{};  ///< the shaft cannot go above it
 };
 
 /// Shaft, load and encoder, one step at a time: an outer sample, or a part of one. Only +, -, * and / on
-/// doubles, so every machine computes the same.
+/// doubles, so the result is the same on every machine.
 class Plant {
   public:
-    /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
-    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of
-    /// it already.
+    /// `full_acceleration`: of the bare motor at full torque, counts/sample^2 of the outer loop; `steps`: per
+    /// outer sample; `elsewhere`: the part of the bare motor's inertia that the current loop already models.
     Plant(double full_acceleration, int steps, const Load& load, double elsewhere = 0);
 
-    /// Before the steps of a sample: the load as it is now.
+    /// To be called before the steps of a sample: applies the present load.
     void take_load() {
         if (taken_) return;
         taken_ = true;
@@ -55,14 +54,14 @@ class Plant {
     }
     /// One step with the motor's `torque`.
     void step(double torque) { move(velocity_ + push(torque)); }
-    /// The same with `brake` of torque against each count/step of velocity.
+    /// The same with `brake` torque per count/step of velocity.
     void step(double torque, double brake) { move((velocity_ + push(torque)) / (1 + brake * of_one_)); }
 
-    /// Encoder counts since the motor was built.
+    /// Encoder counts since construction.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
     /// The same with its fraction.
     double position() const { return static_cast<double>(position_) / kCount; }
-    /// The holding brake is on or off: a friction more.
+    /// Applies or releases the holding brake: additional friction.
     void hold(bool on) {
         const std::int32_t holding = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0;
         if (holding == holding_) return;
@@ -72,8 +71,8 @@ class Plant {
     /// Counts a step.
     double velocity() const { return velocity_; }
 
-    /// May be changed at any time, asked for anew each time. A rigid stop that the shaft is beyond puts it
-    /// back there.
+    /// May be changed at any time through this reference. A rigid stop that the shaft is beyond moves it
+    /// back.
     Load& load() {
         taken_ = false;
         return load_;
@@ -85,20 +84,20 @@ class Plant {
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
     static constexpr std::int32_t kStrongestBrake = 1'000'000;
-    /// What is slow sticks: a little more friction, less than the torques' unit. They are whole numbers, so
-    /// one that just equals the friction is nothing rare, and would let the shaft creep on for ever.
+    /// Stiction at low speed: a little additional friction, less than the torques' unit. Torques are whole
+    /// numbers, so one that equals the friction is common, and would let the shaft creep forever.
     static constexpr double kStick = 0.75;
     static constexpr double kSlow = 0.375;  // counts an outer sample
 
-    /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
-    /// round.
+    /// Friction opposes motion, stops a shaft that is slower than its effect in one step, and never reverses
+    /// it.
     static double rubbed(double velocity, double friction) {
         if (velocity > friction) return velocity - friction;
         if (velocity < -friction) return velocity + friction;
         return 0;
     }
     double push(double torque) const { return within(torque + pull_, kTorqueBound) * of_one_; }
-    /// On to the velocity that this would be without friction.
+    /// Moves with the velocity that would result without friction.
     void move(double pushed) {
         const double before = velocity_;
         if (drag_ != 0) pushed /= 1 + drag_;
@@ -117,12 +116,12 @@ class Plant {
     int steps_;
     double fastest_;
     double slow_;    // below it the shaft sticks, counts/step
-    double thrown_;  // of the velocity with which a spring throws, what is left after a step
+    double thrown_;  // factor per step of the velocity with which a spring pushes back
     Load load_;
     std::int32_t holding_ = 0;  // of the brake
     bool taken_ = false;        // what follows is of load_ and holding_
     double of_one_ = 0;         // of torque 1 on motor and load, counts/step^2
-    double friction_ = 0;       // counts/step^2
+    double friction_ = 0;       // valid for the present load_ and holding_
     double sticking_ = 0;       // the same where the shaft is slow
     double pull_ = 0;           // torque
     double drag_ = 0;           // of a velocity, what viscous friction takes in a step

@@ -12,7 +12,7 @@ constexpr std::int32_t wrap32(std::int64_t value) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(value)));
 }
 
-/// The function blocks answer the velocity of the next sample, FNC_OUT, from that of the last, V_OLD.
+/// The function blocks return the velocity of the next sample, FNC_OUT, from that of the last, V_OLD.
 /// Velocities are in 1/16 counts/sample, accelerations in 1/16 counts/sample^2, distances in 1/16 counts.
 
 /// 001 §4.1.1: towards `wanted`, changing by `acceleration` at the most.
@@ -24,27 +24,27 @@ inline std::int32_t velocity_block(std::int32_t wanted, std::int32_t v_old, std:
 /// sample after that, does not pass `distance` >= 0.
 std::int64_t fastest_that_can_stop(std::int64_t distance, std::int64_t acceleration);
 
-/// 001 §4.1.2: towards a target `distance` away, as fast as can still end exactly on it. `limit` >= 0. A
-/// velocity above the limit or too high for the distance is braked with `acceleration`; the target is then
-/// passed and returned to. R: exact integer arithmetic in place of the manual's V_OLD / A_SOLL, and DV =
-/// FNC_OUT - V_OLD.
-/// `braking`, not above `acceleration`, is what the plan counts on for the end of the move.
+/// 001 §4.1.2: towards a target `distance` away, as fast as possible so that the motion ends exactly on it.
+/// `limit` >= 0. A velocity above the limit or too high for the distance is braked with `acceleration`; the
+/// target is then passed and returned to. R: exact integer arithmetic in place of the manual's V_OLD /
+/// A_SOLL, and DV = FNC_OUT - V_OLD. `braking`, not above `acceleration`, is the deceleration planned for the
+/// end of the move.
 inline std::int32_t position_block(std::int64_t distance, std::int32_t v_old, std::int32_t limit,
                                    std::int32_t acceleration, std::int32_t braking) {
     const bool backwards = distance < 0;
     const std::int64_t towards = backwards ? -std::int64_t{v_old} : v_old;
     const std::int64_t way = backwards ? -distance : distance;
     std::int64_t highest = std::min(towards + acceleration, std::int64_t{limit});
-    // Stopping from `highest` takes no more than highest^2 / 2 braking + highest: far from the target that is
-    // all.
+    // Stopping from `highest` takes no more than highest^2 / 2 braking + highest: far from the target no
+    // other limit applies.
     const bool far = braking > 0 && highest * (highest + 2 * std::int64_t{braking}) <= 2 * braking * way;
     if (!far) highest = std::min(highest, fastest_that_can_stop(way, braking));
     const auto velocity = static_cast<std::int32_t>(std::max(highest, towards - acceleration));
     return backwards ? -velocity : velocity;
 }
 
-/// Electronic gearing (001 §4.1.3, §4.1.12): how far the profile is behind the pulse input, G_FNC, in 1/16
-/// counts, negative while it has that much to go.
+/// Electronic gearing (001 §4.1.3, §4.1.12): lag of the profile behind the pulse input, G_FNC, in 1/16
+/// counts, negative while there is distance to go.
 class Gear {
   public:
     void reset() { *this = {}; }
@@ -55,12 +55,12 @@ class Gear {
     /// kept for the next sample as long as GEARF2 stays; GEARF2 = 0 gives nothing.
     std::int64_t scale(std::int32_t v_ext, std::int32_t gearf1, std::int32_t gearf2,
                        std::int32_t factor = kOne);
-    /// So much more is to be followed. G_FNC stays within 2^44.
+    /// Adds a distance to follow. G_FNC stays within 2^44.
     void take(std::int64_t counts_16);
-    /// The profile went `fnc_out` in this sample, torque correction included.
+    /// The profile moved by `fnc_out` in this sample, torque correction included.
     void went(std::int32_t fnc_out) { g_fnc_ += fnc_out; }
 
-    /// For a block that knows its target itself.
+    /// For a block with its own target.
     void stand_at(std::int64_t g_fnc) { g_fnc_ = g_fnc; }
 
     std::int64_t g_fnc() const { return g_fnc_; }
@@ -71,15 +71,14 @@ class Gear {
     std::int32_t divisor_ = 1;
 };
 
-/// 001 §4.1.3: all that is missing in one sample, within `limit` >= 0 and `acceleration`. Follows without a
-/// lag, and overshoots when the pulses stop suddenly. (The Gear Position block of §4.1.12 is position_block
-/// towards -G_FNC.)
+/// 001 §4.1.3: the whole lag in one sample, within `limit` >= 0 and `acceleration`. Follows without lag, and
+/// overshoots when the pulses stop suddenly. (The Gear Position block of §4.1.12 is position_block towards
+/// -G_FNC.)
 std::int32_t gear_follow_block(std::int64_t g_fnc, std::int32_t v_old, std::int32_t limit,
                                std::int32_t acceleration);
 
-/// The traverse of COIL_MODE (001 §4.4.20): where the wire is to be laid while the spindle turns. It runs to
-/// and fro between the thread positions P1 and P4; what is beyond the stop positions P2 and P3 is waited at
-/// them.
+/// The traverse of COIL_MODE (001 §4.4.20): position of the wire while the spindle turns. It runs back and
+/// forth between the thread positions P1 and P4; beyond the stop positions P2 and P3 the motor waits at them.
 class Coil {
   public:
     struct Setup {
@@ -91,14 +90,14 @@ class Coil {
         std::int64_t direction;     ///< P6: below 0 left, else (R) right
     };
 
-    /// As after power-up and homing: a start command has to come first.
+    /// As after power-up and homing: a start command is required first.
     void forget() { *this = {}; }
     bool started() const { return started_; }
 
-    /// One sample. `start`: the analogue input is high. `travel_16`: what the spindle asks for, 1/16 counts.
+    /// One sample. `start`: the analogue input is high. `travel_16`: requested by the spindle, 1/16 counts.
     /// R: a setup that is not P1 <= P2 <= P3 <= P4 moves nothing.
     void step(const Setup& setup, bool start, std::int64_t travel_16);
-    /// Where the motor is to be, 1/16 counts; `here_16` before the first start and with a wrong setup.
+    /// The motor's target, 1/16 counts; `here_16` before the first start and with an invalid setup.
     std::int64_t target_16(const Setup& setup, std::int64_t here_16) const;
 
   private:
@@ -110,8 +109,8 @@ class Coil {
     std::int64_t place_16_ = 0;  // between the thread positions, 1/16 counts
 };
 
-/// The search for the home position, a sample at a time (001 §4.4.13 - §4.4.15): which velocity it wants, and
-/// when the zero is found. Knows no registers and moves nothing.
+/// The search for the home position, one sample at a time (001 §4.4.13 - §4.4.15): the wanted velocity, and
+/// the detection of the zero. Independent of registers and motion.
 class Homing {
   public:
     enum class Method : std::uint8_t {
@@ -132,7 +131,7 @@ class Homing {
 
     /// True: this is the zero. Not to be called after that without begin().
     bool step(const Input& input);
-    /// What the search wants now, 1/16 counts/sample.
+    /// The velocity of the search, 1/16 counts/sample.
     std::int32_t velocity() const { return velocity_; }
 
     /// HOME1's: 1.25 x T_HOME (001 §3.2.41).
@@ -153,10 +152,10 @@ class Homing {
     std::int32_t velocity_ = 0;
 };
 
-/// What the function blocks of 001 §4.1 make of ANINP. +/- 10 V is +/- 1023, on MAC800 +/- 2048. All cut
-/// towards 0.
+/// Conversions of ANINP for the function blocks of 001 §4.1. +/- 10 V is +/- 1023, on MAC800 +/- 2048. All
+/// truncated towards 0.
 
-/// AV (001 §4.1.5): +/- 10 V is +/- V_SOLL, and more than that it never is (R), ANINP_OFFSET or not.
+/// AV (001 §4.1.5): +/- 10 V is +/- V_SOLL, which is also the limit (R), with or without ANINP_OFFSET.
 std::int32_t analogue_velocity(registers::Model model, std::int32_t aninp, std::int32_t v_soll);
 
 /// AVZ (001 §4.1.6): nothing within +/- 64 (R: MAC800 128), else what is beyond it x 0.0010416 x V_SOLL.

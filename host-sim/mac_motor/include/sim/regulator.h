@@ -14,21 +14,21 @@ namespace nplc::sim {
 /// difference, times KVOUT, within the torque limit. FIR filters and one IIR filter with the motor's
 /// registers as coefficients (001 §3.2.89 - 105, 004).
 ///
-/// If the torque limit is met, the step also answers by how much FNC_OUT should have been another for the
-/// limit to be kept ("correction"). The filters go on from the corrected velocity, so nothing winds up.
+/// In torque limit, the step also returns the change of FNC_OUT that would keep the limit ("correction"). The
+/// filters continue from the corrected velocity, which prevents windup.
 class Regulator {
   public:
     static constexpr std::size_t kOrder = 6;       // MAC800's
     static constexpr std::size_t kSmallOrder = 4;  // the others'
     using Taps = std::array<double, kOrder>;
 
-    /// By age, the newest sample first; what a family has not is 0.
+    /// By age, the newest sample first; coefficients that a family does not have are 0.
     struct Coefficients {
         Taps ff{};
         Taps vb{};
         Taps vfx{};
         Taps vfy{};
-        std::size_t taps = kOrder;  ///< or kSmallOrder: only so many are computed
+        std::size_t taps = kOrder;  ///< or kSmallOrder: number of taps computed
     };
     struct Input {
         std::int32_t fnc_out;       ///< wanted velocity, 1/16 counts/sample
@@ -39,7 +39,7 @@ class Regulator {
     struct Output {
         std::int32_t torque = 0;      ///< VF_OUT, within the limit
         std::int32_t correction = 0;  ///< to be added to FNC_OUT, 1/16 counts/sample; 0 within the limit
-        double ff_out = 0;            ///< in the unit that the coefficients give it
+        double ff_out = 0;            ///< in the unit given by the coefficients
         double vb_out = 0;
     };
 
@@ -49,19 +49,19 @@ class Regulator {
         return c_.taps == kSmallOrder ? filter<kSmallOrder>(input) : filter<kOrder>(input);
     }
     void reset();
-    /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next step.
+    /// Profile and shaft have the same position and run at `velocity`, 1/16 counts/sample, in the next step.
     void restart(std::int32_t velocity);
 
-    /// Some FNC_OUT gives each torque.
+    /// Every torque can be reached by some FNC_OUT.
     bool answers() const { return c_.ff[0] * c_.vfx[0] > 0; }
-    /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
+    /// Lag of the shaft behind the profile, without corrections, 1/16 counts.
     std::int64_t lag_16() const { return lag_16_; }
 
   private:
-    /// Two filters are computed as one: FF with VB, and of VF the part of its input with that of its output.
+    /// Two filters are computed together: FF with VB, and the input part of VF with its output part.
     using Pair [[gnu::vector_size(16)]] = double;
     using Pairs = std::array<Pair, kOrder>;
-    /// What this sample adds to the histories.
+    /// The values that this sample adds to the histories.
     struct Newest {
         double fnc_out;
         double v_ist;
@@ -69,7 +69,7 @@ class Regulator {
         double torque = 0;
     };
     static constexpr std::int64_t kLagBound = std::int64_t{1} << 28;
-    static constexpr double kTorqueBound = 1e9;  // keeps wild coefficients finite
+    static constexpr double kTorqueBound = 1e9;  // keeps extreme coefficients finite
 
     template <std::size_t kTaps>
     Output filter(const Input& input);
@@ -97,7 +97,7 @@ class Regulator {
     Pairs vfx_vfy_{};  // c_'s
     // By age, from 1 on.
     Pairs velocities_{};   // FNC_OUT and V_IST
-    Pairs answers_{};      // VF's input, beside it VF's output of the sample before
+    Pairs answers_{};      // VF's input, with VF's output of the previous sample
     double answered_ = 0;  // VF's last output
     std::int64_t lag_16_ = 0;
 };
@@ -126,7 +126,7 @@ Regulator::Output Regulator::filter(const Input& input) {
     return out;
 }
 
-/// The filters as the registers have them.
+/// The filter coefficients from the registers.
 Regulator::Coefficients regulator_coefficients(const MotorMemory& memory);
 
 }  // namespace nplc::sim

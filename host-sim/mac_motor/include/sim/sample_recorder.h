@@ -10,7 +10,7 @@
 
 namespace nplc::sim {
 
-/// The motor's record of four registers (001 §3.2.112-116): filled and read in order, from the start after a
+/// The motor's record of four registers (001 §3.2.112-116): written and read in order, from the start after a
 /// rewind. Writing and reading share one counter, REC_CNT.
 class SampleBuffer {
   public:
@@ -22,7 +22,7 @@ class SampleBuffer {
     void rewind() { count_ = 0; }
     void clear() { samples_.assign(kCapacity, {}); }
 
-    /// Nothing once it is full.
+    /// No effect once it is full.
     void record(const Sample& sample) {
         if (!full()) samples_[count_++] = sample;
     }
@@ -34,15 +34,15 @@ class SampleBuffer {
     std::vector<Sample> samples_ = std::vector<Sample>(kCapacity);
 };
 
-/// Fills the record as CNTRL_BITS asks: RECORD, REWIND, RECINNER (001 §3.2.36).
+/// Fills the record as selected by CNTRL_BITS: RECORD, REWIND, RECINNER (001 §3.2.36).
 class SampleRecorder final : public InnerWatcher {
   public:
-    /// R: where there is no inner loop, its samples are those of the outer one.
+    /// R: without an inner loop its samples are those of the outer one.
     SampleRecorder(MotorState& state, const Servo& servo, bool has_inner_loop)
         : state_(state), servo_(servo), has_inner_loop_(has_inner_loop) {}
 
     void power_up();
-    /// Before a sample: itself if it is to see each sample of the inner loop, else null.
+    /// Before a sample: returns itself if it records each sample of the inner loop, else null.
     InnerWatcher* begin_sample();
     /// At the end of a sample of the outer loop.
     void end_sample() {

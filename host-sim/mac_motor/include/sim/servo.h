@@ -13,7 +13,7 @@
 
 namespace nplc::sim {
 
-/// Who wants to look at the registers after each sample of the inner loop.
+/// Observer of the registers after each sample of the inner loop.
 class InnerWatcher {
   public:
     virtual void inner_sample() = 0;
@@ -22,43 +22,44 @@ class InnerWatcher {
     ~InnerWatcher() = default;
 };
 
-/// Everything below the profile: regulators, windings, supply and shaft. A sample of the outer loop is
-/// `advance`, then the mode makes its Drive, then `carry_out`.
+/// The stages below the profile: regulators, windings, supply and shaft. A sample of the outer loop is
+/// `advance`, then the mode determines its Drive, then `carry_out`.
 class Servo {
   public:
     enum class Depth : std::uint8_t {
         current_loop,  ///< every sample of the inner loop
-        outer_loop,    ///< torque as asked, within what the supply can drive; no current registers
+        outer_loop,    ///< torque as requested, within the supply's limit; no current registers
     };
     struct Result {
         std::int32_t torque = 0;      ///< VF_OUT
-        std::int32_t correction = 0;  ///< what FNC_OUT should have been less what it was (001 §4.2.1)
+        std::int32_t correction = 0;  ///< wanted minus actual FNC_OUT (001 §4.2.1)
     };
     static constexpr int kTestSamples = 11;  ///< of the inner loop that a Drive `voltage` lasts (001 §4.4.9)
 
     Servo(registers::Model model, Depth depth, const Load& load);
 
-    /// One outer sample with what was asked for last. Answers the encoder counts of that sample (V_IST).
-    /// `watcher`, if any, is called in every inner sample when currents are measured and voltages set.
+    /// One outer sample with the last request. Returns the encoder counts of that sample (V_IST). `watcher`,
+    /// if any, is called in every inner sample after currents are measured and voltages set.
     [[gnu::flatten]] std::int32_t advance(MotorMemory& memory, const Terminals& terminals,
                                           InnerWatcher* watcher = nullptr);
-    /// What the next sample is to do. Writes VF_OUT, FF_OUT, VB_OUT. Unless the Drive is `velocity` the speed
-    /// regulator forgets what it was at.
+    /// The request for the next sample. Writes VF_OUT, FF_OUT, VB_OUT. The speed regulator is reset unless
+    /// the Drive is `velocity`.
     [[gnu::flatten]] Result carry_out(const Drive& drive, MotorMemory& memory);
 
-    /// An outer sample without supply: the shaft runs out. Answers its counts.
+    /// An outer sample without supply: the shaft coasts. Returns its counts.
     std::int32_t coast();
 
-    /// As after power-up: windings shorted, IA_OFFSET ... found. The shaft stays where it is.
+    /// As after power-up: windings shorted, IA_OFFSET ... determined. The shaft does not move.
     void power_up(MotorMemory& memory);
-    /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next sample.
+    /// Profile and shaft have the same position and run at `velocity`, 1/16 counts/sample, in the next
+    /// sample.
     void restart(std::int32_t velocity) { regulator_.restart(velocity); }
 
     std::int32_t torque() const { return torque_; }  ///< VF_OUT
     const Drive& drive() const { return drive_; }
-    /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
+    /// Lag of the shaft behind the profile, without corrections, 1/16 counts.
     std::int64_t lag_16() const { return regulator_.lag_16(); }
-    /// Encoder counts since the motor was built, as the last sample read them.
+    /// Encoder counts since construction, as read in the last sample.
     std::int64_t counts() const { return last_counts_; }
     /// A phase current was at the end of its measuring range in the last sample (001 §3.2.35, IX_ERR).
     bool current_at_the_end() const { return inner_.regulator().at_the_end(); }
@@ -67,7 +68,8 @@ class Servo {
 
     /// The speed regulator's filters can drive the motor.
     bool filters_answer() const { return regulator_.answers(); }
-    /// A broken encoder counts nothing: V_IST is 0, whatever the shaft does. R: commutation has its own eye.
+    /// A broken encoder counts nothing: V_IST is 0, whatever the shaft does. R: commutation has its own
+    /// sensor.
     void break_encoder(bool broken) { encoder_broken_ = broken; }
 
     Plant& plant() { return plant_; }
@@ -106,10 +108,10 @@ class Servo {
     Regulator regulator_;
     InnerLoop inner_;
     QuickLoop quick_;        // outer_loop only
-    double heat_of_square_;  // I2T that a sum of squares of the currents ends at
-    double dumped_of_watt_;  // UIT that a watt in the dump ends at
-    double copper_share_;    // of I2T's way to where it would end, in a sample
-    double dump_share_;      // and of UIT's
+    double heat_of_square_;  // final I2T per sum of squared currents
+    double dumped_of_watt_;  // final UIT per watt in the dump
+    double copper_share_;    // I2T's step towards its final value, per sample
+    double dump_share_;      // and UIT's
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
@@ -118,7 +120,7 @@ class Servo {
     std::int32_t torque_ = 0;
     std::array<std::int32_t, Load::kLatest / kInnerSamples + 2> asked_{};  // torque_ of the last samples
     std::size_t asked_next_ = 0;
-    std::int32_t late_ = 0;  // inner samples by which torque_ acts later
+    std::int32_t late_ = 0;  // delay of torque_ in inner samples
     double i2t_ = 0;
     double uit_ = 0;
     std::int32_t i2t_shown_ = 0;

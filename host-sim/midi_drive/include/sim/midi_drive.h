@@ -11,7 +11,7 @@
 
 namespace nplc::sim {
 
-/// A CAN controller of the gateway's on a virtual bus, on which frames may be lost.
+/// The gateway's CAN controller on a virtual bus that may lose frames.
 class VirtualCanPort final : public ports::CanPort {
   public:
     VirtualCanPort(CanBus& bus, std::uint64_t seed) : bus_(bus), random_(seed) {}
@@ -27,14 +27,20 @@ class VirtualCanPort final : public ports::CanPort {
     void receive(const base::CanFrame& frame);
     void set_state(ports::CanState state) { state_ = state; }
     /// Share of the frames that nobody gets, in either direction.
-    void lose(double share) { loss_ = share; }
-    bool loses() { return std::uniform_real_distribution<>(0, 1)(random_) < loss_; }
+    void lose(double share) { lose(share, share); }
+    void lose(double sent, double received) {
+        loss_of_sent_ = sent;
+        loss_of_received_ = received;
+    }
     unsigned restarts() const { return restarts_; }
 
   private:
+    bool loses(double share) { return std::uniform_real_distribution<>(0, 1)(random_) < share; }
+
     CanBus& bus_;
     std::mt19937_64 random_;
-    double loss_ = 0;
+    double loss_of_sent_ = 0;
+    double loss_of_received_ = 0;
     ports::CanState state_ = ports::CanState::active;
     std::deque<ports::CanFrame> received_;
     std::optional<std::vector<ports::CanFilter>> filters_;
@@ -62,13 +68,18 @@ class MidiDrive {
     MidiModule& module() { return module_; }
     const MidiModule& module() const { return module_; }
 
-    /// Moves characters or frames on, after the module has done all that happens until then. True if
-    /// something has arrived at the gateway.
+    /// Moves characters or frames, after the module was advanced to `now`. True if something has arrived at
+    /// the gateway.
     bool service(Time now);
-    /// Of the line, and of the module as far as it could speak by itself.
+    /// Next event of the line, or of the module if it could send by itself.
     Time next_event(Time now) const;
 
     void cut(bool cut);
+    /// What the gateway sends is lost, what it would receive is.
+    void cut(bool to_drive, bool from_drive);
+    /// What the drive sends comes later by `late`, and then at the next multiple of `together`, as from a USB
+    /// adapter.
+    void delay(Time late, Time together);
     void power(bool on);
 
   private:
@@ -84,6 +95,8 @@ class MidiDrive {
     VirtualCanPort can_port_;
     bool cut_ = false;
     Time asked_{0};
+    LineFaults lateness_;
+    std::deque<std::pair<Time, ports::CanFrame>> coming_;  ///< and when it arrives
 };
 
 }  // namespace nplc::sim

@@ -12,7 +12,8 @@
 
 namespace nplc::sim {
 
-/// A module on its serial line (000 §II to §IV): a character in, characters out when the line asks for them.
+/// A module on its serial line (000 §II to §IV): receives and sends one character at a time, when the line
+/// polls it.
 class MidiV24End {
   public:
     explicit MidiV24End(MidiModule& module) : module_(module) {}
@@ -38,7 +39,7 @@ class MidiCanEnd {
     explicit MidiCanEnd(MidiModule& module) : module_(module) {}
     /// To be called after module.advance() to the same time.
     void receive(const base::CanFrame& frame);
-    /// The next frame that it has to send; asked for often, for it also boots by itself.
+    /// The next frame to send; to be polled often, since it also boots by itself.
     std::optional<base::CanFrame> transmit();
 
   private:
@@ -61,11 +62,11 @@ class CanBus {
     using Frame = base::CanFrame;
     struct Heard {
         Frame frame;
-        int sender;  ///< who gave it to send()
+        int sender;  ///< parameter of send()
     };
     explicit CanBus(std::uint32_t bits_per_second) : bit_rate_(bits_per_second) {}
 
-    /// Waits until the bus is free and nobody has a lower identifier. A sender's frames keep their order.
+    /// Queued until the bus is free and no sender has a lower identifier. A sender's frames keep their order.
     void send(const Frame& frame, int sender);
     /// The frame whose transmission has ended by `now`, for everyone but its sender.
     std::optional<Heard> take(Time now);

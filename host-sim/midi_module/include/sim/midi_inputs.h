@@ -21,12 +21,12 @@ class MidiInputs {
         levels_[index(input)] = active;
         return true;
     }
-    /// A switch that is active on one side of a place of the shaft.
+    /// Connects a switch that is active on one side of a shaft position.
     void connect(MidiInput input, bool on_above, std::int64_t at) {
         switches_[index(input)] = Switch{at, on_above};
     }
     void disconnect(MidiInput input) { switches_[index(input)].reset(); }
-    /// What its switch makes of the input at this place of the shaft; nothing: it has none.
+    /// The state of its switch at this shaft position; empty without a switch.
     std::optional<bool> switched(MidiInput input, std::int64_t shaft) const {
         const std::optional<Switch>& connected = switches_[index(input)];
         if (!connected) return std::nullopt;

@@ -7,7 +7,7 @@
 
 namespace nplc::sim {
 
-/// What a MIDI module keeps without power (000 §VI 08h to 0Fh, 1Bh, 20h; R: 02h, 03h and 1Ch as well).
+/// Non-volatile data of a MIDI module (000 §VI 08h to 0Fh, 1Bh, 20h; R: 02h, 03h and 1Ch as well).
 struct MidiMemory {
     std::uint8_t address = 0;
     std::uint8_t baud_code = 3;
@@ -24,7 +24,7 @@ struct MidiMemory {
     bool operator==(const MidiMemory&) const = default;
 };
 
-/// The chip that keeps it, and how often it was written.
+/// The EEPROM, with a write counter.
 struct MidiEeprom {
     MidiMemory values;
     std::uint32_t writes = 0;
@@ -41,9 +41,9 @@ struct MidiEeprom {
     }
 };
 
-/// As from the factory (000 §VI 01h). Address 00 on V24 and 1 on CAN, 38400 baud and tolerance 0 are the
-/// manuals'; R: the rest is ours: full torque, 100 rpm on MAC34 and 300 rpm on MAC23, unstall 1 ms an
-/// increment, a ramp of 1920 increments, standby, no stops. The position is none of the factory's.
+/// Factory settings (000 §VI 01h). Address 00 on V24 and 1 on CAN, 38400 baud and tolerance 0 are from the
+/// manuals; R: the rest is an own choice: full torque, 100 rpm on MAC34 and 300 rpm on MAC23, unstall 1 ms an
+/// increment, a ramp of 1920 increments, standby, no stops. The position is not a factory setting.
 MidiMemory factory_memory(registers::midi::Model model, bool can, std::uint8_t imax);
 
 /// The EEPROM as GET_EEPROM reads it. R: no manual gives the places; unused bytes are FFh.

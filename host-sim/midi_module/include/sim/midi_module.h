@@ -17,7 +17,7 @@ struct MidiOptions {
     bool can = false;                ///< a module for CAN instead of V24
     std::uint8_t address = 0;        ///< V24 0..7Fh, CAN 1..7Fh
     std::uint8_t imax = 0x80;        ///< RAM AFh
-    std::uint32_t release = 0x0704;  ///< as GET_RELEASE tells it; R: byte 3 is the release, byte 4 its index
+    std::uint32_t release = 0x0704;  ///< answer to GET_RELEASE; R: byte 3 is the release, byte 4 its index
 };
 
 /// A command that was carried out.
@@ -27,9 +27,9 @@ struct MidiAction {
     std::uint32_t data;
 };
 
-/// A MIDI MAC23, MAC34-1 or MAC34-2 as its commands show it, in virtual time. It knows no line: MidiV24End
-/// and MidiCanEnd speak for it. The same calls give the same motion. README.md tells where the manuals'
-/// sections are and what is our own reading (R).
+/// A MIDI MAC23, MAC34-1 or MAC34-2 as seen through its commands, in virtual time. Independent of a line:
+/// MidiV24End and MidiCanEnd connect it. The same calls give the same motion. README.md lists the manuals'
+/// sections and the interpretations (R).
 class MidiModule {
   public:
     using Model = registers::midi::Model;
@@ -39,66 +39,66 @@ class MidiModule {
         bool operator==(const Leds&) const = default;
     };
 
-    /// Switched on, and started long ago.
+    /// Switched on, with the start-up time over.
     explicit MidiModule(Model model, const MidiOptions& options = {});
     MidiModule(const MidiModule&) = delete;
     MidiModule& operator=(const MidiModule&) = delete;
 
-    /// Does all that happens until then.
+    /// Simulates up to that time.
     void advance(Time to);
 
-    /// Carries out a command; false: refused. RESET, FACTORY and BAUD only begin with restart().
+    /// Executes a command; false: refused. RESET, FACTORY and BAUD take effect with restart().
     bool execute(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data);
     std::optional<std::uint32_t> answer(std::uint8_t query, std::uint8_t sub_index) const;
     /// The last 10,000 commands carried out, oldest first.
     const std::deque<MidiAction>& actions() const { return actions_; }
     /// SYNC on the bus: like the command, without an answer.
     void sync() { start_prepared(); }
-    /// A restart was ordered; the end calls restart() once its answer has left.
+    /// A restart was commanded; the line's end calls restart() once the answer has been sent.
     bool wants_restart() const { return wants_restart_; }
     void restart();
     /// LMT.
     void set_address(std::uint8_t address);
 
-    /// No message is heard: off, security input, or the two seconds after a restart.
+    /// No message is received: off, security input, or the two seconds after a restart.
     bool deaf() const { return !is_on() || input(Input::security) || motion_.now() < deaf_until_; }
-    /// A start is complete: true once for each.
+    /// A start has been completed: true once per start.
     bool take_boot();
 
-    // The world around it.
+    // Environment.
     void power_off();
     void power_on();
-    /// For good: takes a switch off.
+    /// Sets a constant level; removes a switch.
     void set_input(Input input, bool active);
     bool input(Input input) const { return inputs_[input]; }
     void set_supply(std::int32_t millivolts);
-    /// What braking adds to a supply that takes nothing back.
+    /// Voltage rise by braking on a supply that cannot absorb energy.
     void set_regeneration(std::int32_t millivolts) { supply_.set_regeneration(millivolts); }
     void set_temperature(std::int32_t thousandths);
     void connect_encoder(bool connected);
     void overload_amplifier() { trip(registers::midi::kAmplifierTrip); }
     void hold_shaft(bool held) { motion_.shaft().hold(held); }
-    /// A mechanical end, in increments of shaft(); one that the shaft is beyond holds it where it is.
+    /// A mechanical end, in increments of shaft(); one that the shaft is beyond holds it in place.
     void stop_shaft(bool above, std::int64_t at) { motion_.shaft().stop(above, at); }
     void free_shaft() { motion_.shaft().free(); }
-    /// A switch at an input: active on one side of a place, in increments of shaft().
+    /// A switch at an input: active on one side of a position, in increments of shaft().
     void connect(Input input, bool on_above, std::int64_t at);
-    /// A constant pull in steps of TORQUE, positive clockwise. Below the motor's torque it only has to be
-    /// overcome; above it, it drags the shaft.
+    /// A constant load torque in steps of TORQUE, positive clockwise. Below the motor's torque it is only
+    /// compensated; above it, it drags the shaft.
     void set_load(std::int32_t torque) { motion_.set_load(torque); }
-    /// By hand; with power off nothing turns it back.
+    /// Turned by hand; with power off nothing turns it back.
     void turn_shaft(std::int32_t increments) { motion_.turn_shaft(increments); }
 
     Model model() const { return model_; }
     bool is_can() const { return options_.can; }
-    std::uint8_t imax() const { return options_.imax; }  ///< what torques are shares of
+    std::uint8_t imax() const { return options_.imax; }  ///< reference of the torque values
     bool is_on() const { return supply_.is_on(); }
     std::int32_t position() const { return motion_.position(); }
-    /// Increments that the shaft has really turned, whatever the position was set to.
+    /// Increments that the shaft has actually turned, independent of the position's origin.
     std::int64_t shaft() const { return motion_.shaft().turned(); }
     bool moving() const { return motion_.moving(); }
     bool powered() const { return motion_.powered(); }
-    std::uint8_t torque() const { return motion_.torque(); }  ///< what the motor has now, of Imax
+    std::uint8_t torque() const { return motion_.torque(); }  ///< present motor torque, relative to Imax
     bool busy() const { return motion_.busy(); }              ///< the output: 003 §IV
     bool fault() const;                                       ///< the output
     std::uint32_t status() const;
@@ -106,11 +106,11 @@ class MidiModule {
     Leds leds() const;
     std::uint8_t waiting_segments() const { return static_cast<std::uint8_t>(motion_.waiting_segments()); }
 
-    /// Of the serial line; a change holds from the restart on.
+    /// Baud rate of the serial line; a change takes effect at the restart.
     std::uint32_t baud() const { return registers::midi::baud_of(baud_code_); }
     const MidiMemory& memory() const { return eeprom_.values; }
     std::uint32_t memory_writes() const { return eeprom_.writes; }
-    /// As found at power-on.
+    /// The memory's content at power-on.
     void set_memory(const MidiMemory& memory);
 
   private:

@@ -14,8 +14,8 @@
 
 namespace nplc::sim {
 
-/// The motion of a MIDI module: set-point, position loop and shaft, in ticks of 0.125 us. What may be
-/// ordered when, MidiModule decides.
+/// The motion of a MIDI module: set-point, position loop and shaft, in ticks of 0.125 us. MidiModule decides
+/// which commands are allowed.
 class MidiMotion {
   public:
     using Ticks = MidiProfile::Ticks;
@@ -25,7 +25,7 @@ class MidiMotion {
     };
 
     struct Events {
-        std::function<void()> on_braking;    ///< begun or cut; may cut the power
+        std::function<void()> on_braking;    ///< braking begun or cut; may cut the power
         std::function<void()> on_hard_stop;  ///< by stop_hard() or an end-stop
     };
 
@@ -39,11 +39,11 @@ class MidiMotion {
           shaft_(registers::midi::facts_of(model).increments_per_rev, imax) {}
 
     Ticks now() const { return ticks_; }
-    /// Makes the next increment that is due until then; false: there is none, and it is `until`.
+    /// Makes the next increment due by then; false: there is none, and the time is `until`.
     bool advance(Ticks until);
 
     void go_to(std::int32_t target);
-    /// False: refused, another motion is under way. Period 0 ends it.
+    /// False: refused, another motion is in progress. Period 0 ends it.
     bool run(int direction, std::uint16_t period);
     bool add_segment(const Segment& segment);
     void ramp_down();
@@ -51,7 +51,7 @@ class MidiMotion {
     void stop_hard();
     void give_power() { powered_ = true; }
     void cut_power();
-    /// Without its supply a shaft that turns goes on.
+    /// Without supply a turning shaft coasts.
     void run_out();
     void set_origin();
     void set_position(std::int32_t position) { position_ = set_point_ = goal_ = position; }
@@ -101,13 +101,13 @@ class MidiMotion {
     MidiShaft shaft_;
     Ticks ticks_ = 0;
     std::optional<Ticks> next_step_;
-    std::optional<Ticks> next_drag_;  ///< while there is a load, or the shaft runs out
+    std::optional<Ticks> next_drag_;  ///< while there is a load, or the shaft coasts
 
     Mode mode_ = Mode::idle;
     MidiProfile profile_;
     int direction_ = 1;
     bool powered_ = false;
-    bool pause_ = false;  ///< the running segment moves nothing
+    bool pause_ = false;  ///< the running segment has no motion
     bool stalled_ = false;
     std::int32_t position_ = 0;
     std::int32_t set_point_ = 0;

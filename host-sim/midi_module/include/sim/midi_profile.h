@@ -4,43 +4,43 @@
 
 namespace nplc::sim {
 
-/// When a MIDI module's set-point makes its increments: 16 speeds in equal steps, 120 x AA increments from
+/// Times of the set-point increments of a MIDI module: 16 speeds in equal steps, 120 x AA increments from
 /// standstill to full speed (003 §IV, §VII 0Fh and 13h). R: step k of 15 lasts k x AA increments, for 1 + 2 +
-/// ... + 15 = 120; so each lasts as long, and the acceleration is even. Time in ticks of 0.125 us, whole
-/// numbers only: what is left over is carried to the next increment.
+/// ... + 15 = 120; so all steps take the same time, and the acceleration is constant. Time in ticks of 0.125
+/// us, integers only: the remainder is carried to the next increment.
 class MidiProfile {
   public:
     using Ticks = std::int64_t;
 
-    /// So many increments from standstill to standstill; short ones turn back before full speed.
+    /// A number of increments from standstill to standstill; short moves decelerate before full speed.
     void begin_move(std::int64_t increments, std::uint16_t period, std::uint8_t ramp);
-    /// Until stop(). Begun in mid-run: the speed changes over a ramp of the same length (R).
+    /// Until stop(). If begun during a run the speed changes over a ramp of the same length (R).
     void begin_run(std::uint16_t period, std::uint8_t ramp);
-    /// At one speed; 0 increments are over at once.
+    /// At constant speed; 0 increments end at once.
     void begin_segment(std::int64_t increments, std::uint16_t period);
-    /// To standstill: of a move in the increments that its present speed took to reach, of a run in a whole
-    /// ramp (R).
+    /// To standstill: a move in the increments that its present speed took to reach, a run in a whole ramp
+    /// (R).
     void stop();
     void clear() { kind_ = Kind::none; }
 
     bool running() const { return kind_ != Kind::none; }
     bool is_run() const { return kind_ == Kind::run; }
-    /// Of a move or segment: those still to make.
+    /// Remaining increments of a move or segment.
     std::int64_t remaining() const { return remaining_; }
-    /// Of a move: another distance from here, never less than what stopping takes.
+    /// Changes the remaining distance of a move, never below the stopping distance.
     void set_remaining(std::int64_t increments);
 
-    /// How long the next increment takes. Needs running(); asking changes nothing.
+    /// Duration of the next increment. Needs running(); does not change the state.
     Ticks interval() const;
-    /// The next increment is slower than the last was, by more than the carry of one tick.
+    /// The next increment is slower than the last one, by more than the carry of one tick.
     bool slows() const { return running() && last_ != 0 && interval() > last_ + 1; }
     Ticks last_interval() const { return last_; }
-    /// The increment has been made; the profile may be over now.
+    /// The increment has been made; the profile may end here.
     void advance();
 
   private:
     enum class Kind : std::uint8_t { none, move, run, segment };
-    /// Ticks an increment as a fraction; standstill has denominator 0.
+    /// Ticks per increment as a fraction; standstill has denominator 0.
     struct Pace {
         Ticks numerator = 1;
         Ticks denominator = 0;
@@ -58,12 +58,12 @@ class MidiProfile {
     std::uint16_t period_ = 1;
     std::int64_t done_ = 0;
     std::int64_t remaining_ = 0;
-    Pace from_{};  ///< a run's last speed, and the one it goes to
+    Pace from_{};  ///< present and final speed of a speed change in a run
     Pace to_{};
     int run_step_ = kSteps;
     std::int64_t in_step_ = 0;
     Ticks carried_ = 0;
-    Ticks carried_for_ = 0;  ///< denominator that the carry belongs to
+    Ticks carried_for_ = 0;  ///< denominator of the carry
     Ticks last_ = 0;
 };
 

@@ -5,11 +5,11 @@
 
 namespace nplc::sim {
 
-/// The shaft of a MIDI module and what it is coupled to, in increments. The motor turns it as far as it can;
-/// a load above the motor's torque drags it, and without supply it runs out.
+/// The shaft of a MIDI module with its load, in increments. The motor turns it within its torque; a load
+/// above the motor's torque drags it, and without supply it coasts.
 class MidiShaft {
   public:
-    static constexpr int kDragSteps = 4'000;  ///< a second: how often a shaft that slips is moved on
+    static constexpr int kDragSteps = 4'000;  ///< per second: update rate of a slipping shaft
 
     MidiShaft(std::int32_t increments_per_rev, std::uint8_t imax)
         : full_acceleration_(kFullAcceleration * increments_per_rev), imax_(imax) {}
@@ -18,12 +18,12 @@ class MidiShaft {
     std::int64_t turned() const { return turned_; }
     bool at_end(int direction) const;
     bool can_turn(int direction, std::int32_t torque) const;
-    /// By the motor, an increment.
+    /// Turned by the motor, one increment.
     void turn(int direction) { turned_ += direction; }
-    /// By a hand or a load, as far as the ends let it. Answers how far.
+    /// Turned by hand or by a load, within the mechanical ends. Returns the increments.
     std::int32_t turn_by(std::int32_t increments);
 
-    /// One that the shaft is beyond holds it where it is.
+    /// An end that the shaft is beyond holds it in place.
     void stop(bool above, std::int64_t at);
     void free() { low_ = high_ = std::nullopt; }
     void hold(bool held) { held_ = held; }
@@ -31,12 +31,12 @@ class MidiShaft {
 
     /// drag() has something to do.
     bool slips() const { return load_ != 0 || speed_ != 0; }
-    /// Goes on by itself from now on, signed, increments a second.
+    /// Coasts from now on, signed, increments a second.
     void let_go(std::int64_t increments_per_second);
-    /// 1 / kDragSteps of a second. `torque`: what the motor holds it with; nothing: it has no power. Answers
-    /// how far the shaft wants to be turned.
+    /// 1 / kDragSteps of a second. `torque`: the motor's holding torque; empty: no power. Returns the
+    /// increments by which the shaft should turn.
     std::int32_t drag(std::optional<std::int32_t> torque);
-    /// The motor stands in its way.
+    /// The motor blocks the shaft.
     void stand() { speed_ = rest_ = 0; }
 
   private:
@@ -52,8 +52,8 @@ class MidiShaft {
     std::optional<std::int64_t> low_, high_;
     bool held_ = false;
     std::int32_t load_ = 0;
-    std::int64_t speed_ = 0;  // of a shaft that slips, increments a step of it, x 2^20
-    std::int64_t rest_ = 0;   // less than an increment, x 2^20
+    std::int64_t speed_ = 0;  // speed of a slipping shaft, increments a step, x 2^20
+    std::int64_t rest_ = 0;   // fraction of an increment, x 2^20
 };
 
 }  // namespace nplc::sim

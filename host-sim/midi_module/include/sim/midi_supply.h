@@ -6,7 +6,7 @@
 
 namespace nplc::sim {
 
-/// The supply of a MIDI module and what braking does to it, in millivolts.
+/// The supply of a MIDI module with the effect of braking, in millivolts.
 class MidiSupply {
   public:
     using Ticks = std::int64_t;
@@ -15,7 +15,7 @@ class MidiSupply {
         : facts_(facts), set_(facts.max_supply * 3 / 5) {}
 
     void set(std::int32_t millivolts) { set_ = millivolts; }
-    /// What braking adds to a supply that takes nothing back.
+    /// Voltage rise by braking on a supply that cannot absorb energy.
     void set_regeneration(std::int32_t millivolts) { regeneration_ = millivolts; }
     void switch_on(bool on) { on_ = on; }
     bool is_on() const { return on_; }
@@ -24,7 +24,7 @@ class MidiSupply {
     bool warns_low() const { return voltage() <= facts_.under_voltage; }
     bool trips_amplifier() const;
     bool trips_supply() const { return voltage() < registers::midi::kLeastSupply; }
-    /// Whether it warned at one of the checks since it was forgotten.
+    /// Latches an overvoltage warning until it is reset.
     void check() { over_voltage_kept_ = over_voltage_kept_ || warns_high(); }
     bool over_voltage_kept() const { return over_voltage_kept_; }
     void forget_over_voltage() { over_voltage_kept_ = false; }
@@ -32,7 +32,7 @@ class MidiSupply {
     void brake(bool brakes) { brakes_ = brakes; }
     bool brakes() const { return brakes_; }
     bool braking_is_cut(Ticks now) const { return is_over_release(set_) || now < release_until_; }
-    /// R: 5 ms without braking, then 5 ms with it, as long as braking lifts the supply too high.
+    /// R: alternately 5 ms without and 5 ms with braking, as long as braking raises the voltage too high.
     void cut_excess(Ticks now);
 
   private:

@@ -9,21 +9,21 @@
 
 namespace nplc::sim {
 
-/// Of a place in a motor's counts: the increments of a module's shaft.
+/// Converts a position in a motor's counts to increments of a module's shaft.
 std::int64_t increments_of(registers::midi::Model model, std::int64_t counts);
 
-/// False: a module has no such thing.
+/// False: a module does not have this part.
 bool act(MidiModule& module, const action::OnMotor& what);
 
-/// A module without a gateway, to which things happen.
+/// A module without a gateway as the stage of actions.
 class ModuleAlone final : private Stage {
   public:
-    /// It outlives this.
+    /// `module` must outlive this.
     explicit ModuleAlone(MidiModule& module) : module_(module), runner_(nothing_, names_, *this) {}
 
-    /// From now on; with the next observe().
+    /// Adds actions from now on; they start at the next observe().
     void also(Actions actions, Time now) { runner_.also(std::move(actions), now); }
-    /// From time to time: does what is due.
+    /// To be called regularly: carries out due actions.
     void observe(Time now);
 
   private:

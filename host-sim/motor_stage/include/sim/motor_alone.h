@@ -8,19 +8,19 @@
 
 namespace nplc::sim {
 
-/// A motor without a gateway, on which a scenario plays whose Names are `motor_alone`.
+/// A motor without a gateway as the stage of a scenario whose Names have `motor_alone`.
 class MotorAlone final : private Stage {
   public:
-    /// All three outlive it. What the flash holds is stored at once, and if there are pulses and the user
-    /// interface is free for them, that it is the pulse input.
+    /// All three parameters must outlive it. The flash contents are stored at once, including the selection
+    /// of the pulse input if there are pulses and the user interface is free for them.
     MotorAlone(MacMotor& motor, const Scenario& scenario, const Names& names);
 
     bool powered() const { return powered_; }
-    /// When the scenario wants to be looked at.
+    /// Time of the scenario's next event.
     std::optional<Time> next_due() const { return runner_.next_due(); }
-    /// Does these too, from now on; with the next observe().
+    /// Adds actions from now on; they start at the next observe().
     void also(Actions actions, Time now) { runner_.also(std::move(actions), now); }
-    /// After each sample, and when it is due. Throws EndlessRules.
+    /// To be called after each sample, and when due. Throws EndlessRules.
     void observe(Time now);
 
   private:

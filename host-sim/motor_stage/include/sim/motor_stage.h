@@ -7,13 +7,12 @@
 
 namespace nplc::sim {
 
-/// A stop that the shaft is beyond holds it where it is, but for a spring. Inputs of a MIDI module it has
-/// not.
+/// A rigid stop that the shaft is beyond holds it in place. Inputs of a MIDI module are not supported.
 void act(MacMotor& motor, const action::OnMotor& what);
 
-/// Off and on again: registers from its flash, a whole encoder.
+/// Power off and on: registers from the flash, encoder repaired.
 void switch_on(MacMotor& motor);
-/// Into its flash, then off and on.
+/// Stores into the flash, then power off and on.
 void store(MacMotor& motor, const std::vector<StoredRegister>& registers);
 
 }  // namespace nplc::sim

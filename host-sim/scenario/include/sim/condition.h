@@ -9,7 +9,7 @@
 
 namespace nplc::sim {
 
-/// Something that a scenario can look at.
+/// A value that a scenario can test.
 struct Value {
     enum class Kind : std::uint8_t {
         input,
@@ -36,10 +36,10 @@ struct Value {
     std::string name(const Names& names) const;
 };
 
-/// What a number is written in.
+/// The unit of a number.
 struct Unit {
-    std::string name;  ///< `mm/s`; empty: the value's own steps
-    double size = 1;   ///< in those
+    std::string name;  ///< `mm/s`; empty: the value's own unit
+    double size = 1;   ///< in the value's own unit
 };
 
 struct Condition {
@@ -51,37 +51,39 @@ struct Condition {
     Relation relation = Relation::equal;
     double operand = 1;
     double tolerance = 0;
-    Unit unit{};        ///< in which it was asked for
+    Unit unit{};        ///< as written in the scenario
     std::string order;  ///< in words, without blanks, lower case
     std::vector<Condition> parts;
 
     bool holds(const Snapshot& snapshot, const Names& names) const;
-    /// What the snapshot has for every value that the condition looks at.
+    /// The snapshot's values for all operands of the condition.
     std::string seen(const Snapshot& snapshot, const Names& names) const;
+    /// A number of the value in the unit in which it was asked for.
+    std::string in_its_unit(double number) const;
 };
 
-/// A moment: when a condition becomes true, or false, or a value changes; or when that has lasted for a time.
+/// An event: a condition becomes true or false, or a value changes, possibly after a duration.
 struct Event {
     enum class Edge : std::uint8_t {
         true_now,  ///< becomes true, or is true from the beginning
         rises,     ///< becomes true
         falls,     ///< becomes false
-        changes,   ///< the value becomes another
-        each,      ///< at every snapshot in which it is true: for orders, which are true for one only
+        changes,   ///< the value changes
+        each,      ///< every snapshot in which it is true: for orders, which are true in one snapshot only
     };
     Edge edge = Edge::true_now;
     Condition condition;
-    std::optional<Condition> guard{};  ///< must be true beside it
-    Time span{0};                      ///< that it must last
-    std::string text;                  ///< as the scenario has it
+    std::optional<Condition> guard{};  ///< must be true as well
+    Time span{0};                      ///< required duration
+    std::string text;                  ///< as written in the scenario
 };
 
-/// Watches for an Event; must be shown every snapshot.
+/// Detects an Event; must be shown every snapshot.
 class EventWatch {
   public:
     explicit EventWatch(const Event& event) : event_(&event) {}
     bool happens(const Snapshot& snapshot, const Names& names);
-    /// When what lasts now will have lasted long enough.
+    /// When the present state will have lasted long enough.
     std::optional<Time> due() const;
 
   private:

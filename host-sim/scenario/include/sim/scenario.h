@@ -18,10 +18,10 @@ struct SetInput {
     unsigned index = 0;
     bool level = false;
 };
-/// Drops what rules have planned before.
+/// Drops actions that rules have planned before.
 struct Cancel {
     enum class What : std::uint8_t { input, motor, line, gateway, log, end, all };
-    What what = What::all;  ///< all but end
+    What what = What::all;  ///< all except end
     unsigned index = 0;     ///< of the input
 };
 struct ToggleInput {
@@ -30,7 +30,7 @@ struct ToggleInput {
 struct CutLine {
     bool cut = true;
 };
-/// Sets the shares that are named and leaves the others.
+/// Sets the named shares and keeps the others.
 struct SpoilLine {
     bool to_motor = true;
     bool from_motor = true;
@@ -50,19 +50,19 @@ struct PowerMotor {
     bool on = true;
 };
 struct LoadMotor {
-    int torque = 0;  ///< constant pull on the shaft, 1023 = the motor's full torque
+    int torque = 0;  ///< constant load torque on the shaft, 1023 = the motor's full torque
 };
 struct MotorBrake {
-    int torque = 0;  ///< what a MAC800's holding brake holds; 0: none is built in
+    int torque = 0;  ///< holding torque of a MAC800's brake; 0: none is built in
 };
-/// Mechanical ends of the axis, in counts of the shaft from where it was at the beginning.
+/// Mechanical ends of the axis, in counts from the shaft's initial position.
 struct StopMotor {
     bool above = true;  ///< else below
     std::int64_t counts = 0;
-    double torque_per_count = 0;  ///< what it gives back; 0: rigid
+    double torque_per_count = 0;  ///< restoring torque; 0: rigid
 };
 struct FreeMotor {};  ///< no mechanical ends
-/// A sensor on the analogue input: 10 V on one side of a place, 0 V on the other.
+/// A sensor on the analogue input: 10 V on one side of a position, 0 V on the other.
 struct MotorSensor {
     bool on_above = true;  ///< else below
     std::int64_t counts = 0;
@@ -73,7 +73,7 @@ struct SetDriveInput {
     DriveInput input = DriveInput::upper_stop;
     bool active = false;
 };
-/// A switch at it: active on one side of a place.
+/// A switch at the input: active on one side of a position.
 struct DriveSwitch {
     DriveInput input = DriveInput::upper_stop;
     bool on_above = true;  ///< else below
@@ -91,21 +91,21 @@ struct MotorSupply {
     bool logic = false;  ///< the control supply of a MAC800, else the motor's own
 };
 struct MotorTemperature {
-    int celsius = 0;  ///< of a MAC800's surroundings
+    int celsius = 0;  ///< ambient temperature of a MAC800
 };
 struct BreakEncoder {};  ///< of a MAC800, until its power is switched off
 enum class Gateway : std::uint8_t { stop, run, restart };
-/// A request to the gateway's set-points, as SET_POINT_WRITE takes it.
+/// A request to the gateway's set-points, as written to SET_POINT_WRITE.
 struct SetPoints {
     std::vector<std::uint8_t> request;
-    std::string text;  ///< as the scenario has it
+    std::string text;  ///< as written in the scenario
 };
 struct Log {
     std::string text;
 };
 struct End {};
 
-/// What happens to the motor's shaft, terminals and surroundings.
+/// Actions on the motor's shaft, terminals and environment.
 using OnMotor =
     std::variant<LoadMotor, MotorBrake, StopMotor, FreeMotor, MotorSensor, SetDriveInput, DriveSwitch,
                  MotorAnalogue, MotorPulses, MotorSupply, MotorTemperature, BreakEncoder>;
@@ -113,7 +113,7 @@ using OnMotor =
 }  // namespace action
 
 struct Action {
-    Time after{0};  ///< since the moment that set it off
+    Time after{0};  ///< delay after the event that triggered it
     std::variant<action::SetInput, action::ToggleInput, action::Cancel, action::CutLine, action::SpoilLine,
                  action::Seed, action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
                  action::StopMotor, action::FreeMotor, action::MotorSensor, action::SetDriveInput,
@@ -121,34 +121,37 @@ struct Action {
                  action::MotorTemperature, action::BreakEncoder, action::Gateway, action::SetPoints,
                  action::Log, action::End>
         what;
+    bool takes_back = false;  ///< what the action before it did
 };
 using Actions = std::vector<Action>;
 
 struct AtRule {
     Time time{0};
     Actions actions;
+    int line = 0;
 };
 struct EveryRule {
     Time period{0};
     Time from{0};
     std::optional<Time> until;
     Actions actions;
+    int line = 0;
 };
 struct WhenRule {
     Event event;
     bool once = false;
-    std::uint64_t times = 1;  ///< the event must have happened so often
-    Time from{0};             ///< events before it, or after `until`, set nothing off
+    std::uint64_t times = 1;  ///< required number of events
+    Time from{0};             ///< events before it, or after `until`, are ignored
     std::optional<Time> until;
     Actions actions;
     int line = 0;
 };
-/// An input that does as the machine does, a while later; what goes back before that never shows.
+/// An input that follows a condition of the machine with a delay; shorter changes do not show.
 struct FollowRule {
     unsigned input = 0;
     Condition condition;
     Time after{0};
-    Time back{0};  ///< when the condition is no longer true
+    Time back{0};  ///< delay when the condition becomes false
     int line = 0;
 };
 
@@ -164,26 +167,26 @@ struct Expectation {
     };
     Kind kind = Kind::at;
     int line = 0;
-    std::string text;  ///< as the scenario has it
+    std::string text;  ///< as written in the scenario
     Condition condition;
     Event event;
     std::optional<Time> time;
-    Time from{0};  ///< of `always` and of events: what is before it counts for nothing
+    Time from{0};  ///< for `always` and events: start of the observation
     Time span{0};
-    Time hold{0};  ///< the condition counts as true only after that time in which it was
+    Time hold{0};  ///< the condition counts as true only after it was true for this time
     std::uint64_t least = 1;
     std::uint64_t most = UINT64_MAX;
 };
 
-/// What the motor's flash holds when it is switched on; of a MIDI module a parameter by its command's number.
+/// A register in the motor's flash at power-on; for a MIDI module a parameter by its command's number.
 struct StoredRegister {
     std::uint8_t number = 0;
     std::uint32_t bits = 0;
 };
 
-/// A plant file that the scenario names.
+/// A plant file named in the scenario.
 struct NamedPlant {
-    std::string file;  ///< as it is written there
+    std::string file;  ///< as written there
     int line = 0;
 };
 
@@ -204,27 +207,27 @@ struct Scenario {
 
 struct Mistake {
     int line = 0;
-    int column = 0;       ///< 0: of the whole line
-    std::string message;  ///< what is wrong and what to write
+    int column = 0;       ///< 0: the whole line
+    std::string message;  ///< the error and its remedy
 
     std::string place() const;  ///< `12:5`
 };
 
 struct ParsedScenario {
     Scenario scenario;
-    std::vector<Mistake> mistakes;  ///< the first 1000; the scenario is of use only without any
+    std::vector<Mistake> mistakes;  ///< the first 1000; the scenario is valid only without any
 };
 
-/// A line each, the first twenty, and how many more.
+/// One line each, the first twenty, and the number of further ones.
 std::string in_words(const std::string& file, const std::vector<Mistake>& mistakes);
 
 /// The language: this folder's README. `file` is for messages only.
 ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names);
 
-/// What happens now: actions, without a time, a rule or an expectation.
+/// Immediate input: actions, without a time, a rule or an expectation.
 struct ParsedActions {
     Actions actions{};
-    std::string mistake{};  ///< empty: there is none
+    std::string mistake{};  ///< empty: none
 };
 ParsedActions parse_actions(std::string_view line, const Names& names);
 

@@ -14,7 +14,7 @@
 
 namespace nplc::sim {
 
-/// What a scenario acts upon. A stage without a gateway has its motor only.
+/// The target of a scenario's actions. A stage without a gateway has its motor only.
 class Stage {
   public:
     virtual void set_input(unsigned /*index*/, bool /*level*/) {}
@@ -35,38 +35,38 @@ class Stage {
 
 struct ExpectationResult {
     int line = 0;
-    std::string expectation;  ///< as the scenario has it
+    std::string expectation;  ///< as written in the scenario
     bool passed = false;
-    std::string seen;  ///< what was seen instead, and when
+    std::string seen;  ///< the actual value, and when
     Time decided{0};
 };
 
-/// Rules that set each other off without end at one instant; the message names file and line.
+/// Rules that trigger each other endlessly at one instant; the message names file and line.
 struct EndlessRules : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Plays a Scenario on a Stage and judges its expectations. Must be shown every change of the machine, and
-/// the instants that next_due() asks for.
+/// called at the times of next_due().
 class ScenarioRunner {
   public:
     ScenarioRunner(const Scenario& scenario, const Names& names, Stage& stage);
 
-    /// The next instant at which something is planned, later than the last one shown.
+    /// The next planned time after the last snapshot.
     std::optional<Time> next_due() const;
 
-    /// Judges what is seen, then acts. True if it acted: the stage has changed and wants to be shown again,
-    /// at the same time. Throws EndlessRules.
+    /// Judges the snapshot, then acts. True if it acted: the stage has changed and must be shown again, at
+    /// the same time. Throws EndlessRules.
     bool observe(const Snapshot& snapshot);
 
-    /// Does these too, at the next observe().
+    /// Adds these actions at the next observe().
     void also(Actions actions, Time now) { plan(also_.emplace_back(std::move(actions)), now, 0, false); }
 
     bool ended() const { return ended_; }
     /// To be called once, with the last snapshot.
     void finish(const Snapshot& snapshot);
 
-    /// An expectation was decided against; called as soon as that is known.
+    /// An expectation has failed; called as soon as that is known.
     void on_failure(std::function<void(const ExpectationResult&, Time)> callback) {
         on_failure_ = std::move(callback);
     }
@@ -78,9 +78,9 @@ class ScenarioRunner {
   private:
     struct Planned {
         const Action* action;
-        int line;             ///< of the rule that reacted; 0: it goes by the time
-        bool by_rule;         ///< else by a time of its own
-        std::uint64_t batch;  ///< what was planned together
+        int line;             ///< line of the rule; 0: triggered by time
+        bool by_rule;         ///< else by its own time
+        std::uint64_t batch;  ///< number of the group of actions planned together
     };
     struct Watched {
         EventWatch watch;
@@ -88,8 +88,8 @@ class ScenarioRunner {
         bool done = false;
     };
     struct Followed {
-        std::optional<bool> wanted;  ///< what the condition says
-        std::optional<Time> due;     ///< when the input shows it
+        std::optional<bool> wanted;  ///< value of the condition
+        std::optional<Time> due;     ///< when the input follows it
     };
     struct Judgement {
         explicit Judgement(const Expectation& wanted) : expectation(&wanted), watch(wanted.event) {}
@@ -99,7 +99,8 @@ class ScenarioRunner {
         std::uint64_t events = 0;
         std::uint64_t fulfilled = 0;
         std::vector<Time> deadlines;
-        std::optional<Time> since{};  ///< the condition has been true
+        std::optional<Time> since{};      ///< the condition has been true
+        std::optional<double> nearest{};  ///< of a value that is awaited, what came nearest to it
     };
 
     void plan(const Actions& actions, Time now, int line, bool by_rule);
@@ -112,6 +113,7 @@ class ScenarioRunner {
     void judge(Judgement& judgement, const Snapshot& snapshot);
     void judge_at(Judgement& judgement, const Snapshot& snapshot);
     void judge_by(Judgement& judgement, const Snapshot& snapshot);
+    std::string nearest_text(const Judgement& judgement) const;
     void judge_always(Judgement& judgement, const Snapshot& snapshot);
     void judge_after_event(Judgement& judgement, const Snapshot& snapshot);
     void judge_during(Judgement& judgement, const Snapshot& snapshot);
@@ -126,7 +128,7 @@ class ScenarioRunner {
     const Names& names_;
     Stage& stage_;
     std::multimap<Time, Planned> planned_;
-    std::deque<Actions> also_;  ///< planned_ points there
+    std::deque<Actions> also_;  ///< planned_ has pointers into it
     std::uint64_t batches_ = 0;
     std::vector<Followed> followed_;
     std::vector<Time> every_next_;

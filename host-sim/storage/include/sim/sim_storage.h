@@ -10,31 +10,31 @@
 
 namespace nplc::sim {
 
-/// A programming or erasure about to happen.
+/// A program or erase operation about to start.
 struct StorageOperation {
     bool is_erase = false;
     std::uint32_t address = 0;
-    std::vector<std::uint8_t> bytes;  ///< of a programming
+    std::vector<std::uint8_t> bytes;  ///< for a program operation
 };
 
-/// How far an operation came when the power failed.
+/// Progress of an operation when the power failed.
 struct Tear {
-    /// A programming: bytes done; the unit after them is torn. An erasure: bytes at the block's start that
-    /// are as they were while all others are FFh, or with `from_start` the other way round.
+    /// Program: bytes done; the unit after them is torn. Erase: bytes at the block's start that are unchanged
+    /// while all others are FFh, or with `from_start` the reverse.
     std::uint32_t bytes = 0;
     bool from_start = false;
-    /// Of the bits that the torn unit (of an erasure: each byte not yet erased) was to change, those of this
-    /// mask have; repeated byte by byte and turned by one bit each. 0: none.
+    /// Of the bits that were to change in the torn unit (erase: in each byte not yet erased), those in this
+    /// mask have changed; the mask is repeated byte by byte and rotated by one bit each. 0: none.
     std::uint8_t mask = 0;
 };
 
-/// Flash or EEPROM of any sizes, with power cuts, worn bits and bits flipped at rest. New, all bytes are FFh.
-/// Copies are devices of their own.
+/// Flash or EEPROM of any geometry, with power cuts, worn bits and bits flipped at rest. Initially all bytes
+/// are FFh. A copy is an independent device.
 class SimStorage final : public ports::Storage {
   public:
     /// An operation takes `busy_polls` calls of state().
     explicit SimStorage(const ports::StorageGeometry& geometry, unsigned busy_polls = 1);
-    /// From the next operation on.
+    /// Takes effect with the next operation.
     void work_for(unsigned busy_polls) { busy_polls_ = busy_polls; }
 
     ports::StorageGeometry geometry() const override { return geometry_; }
@@ -46,20 +46,21 @@ class SimStorage final : public ports::Storage {
     /// Called before each operation that is accepted.
     void watch(std::function<void(const StorageOperation&)> watcher) { watcher_ = std::move(watcher); }
 
-    /// The same device, without its watcher, as the next start finds it if the power fails in `operation`.
+    /// A copy of the device, without its watcher, as found at the next start if the power fails in
+    /// `operation`.
     SimStorage torn(const StorageOperation& operation, const Tear& tear) const;
 
     void flip(std::uint32_t address, unsigned bit);
-    /// Bytes that are lost at rest.
+    /// Overwrites bytes, as by data loss at rest.
     void fill(std::uint32_t address, std::uint32_t count, std::uint8_t value);
-    /// Programmings leave this bit 1 from now on.
+    /// From now on program operations leave this bit 1.
     void wear_out(std::uint32_t address, unsigned bit) { worn_ = {address, bit}; }
-    /// Operation number `number` from now, counted from 0, does nothing and is reported as failed.
+    /// Operation `number` from now, counted from 0, has no effect and is reported as failed.
     void fail_operation(std::uint64_t number) { fail_at_ = operations_ + number; }
 
     std::span<const std::uint8_t> bytes() const { return bytes_; }
     std::uint64_t operations() const { return operations_; }
-    /// Units programmed again without an erasure between.
+    /// Units programmed twice without an erase between.
     std::uint64_t programmed_twice() const { return programmed_twice_; }
 
   private:
@@ -85,7 +86,7 @@ class SimStorage final : public ports::Storage {
     bool failed_ = false;
 };
 
-/// The tears worth trying: none and all of it, and in between each unit (each block's part) in several ways.
+/// The relevant tears: none, complete, and for each unit (each part of a block) several partial ones.
 std::vector<Tear> tears_of(const StorageOperation& operation, const ports::StorageGeometry& geometry);
 
 }  // namespace nplc::sim

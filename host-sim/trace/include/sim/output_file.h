@@ -8,8 +8,8 @@
 
 namespace nplc::sim {
 
-/// A file that appears under its name only when it is whole: written beside it, then renamed by commit().
-/// Something that is not an ordinary file (/dev/stdout, a pipe) is written directly. Throws FileError.
+/// An output file that is replaced atomically: written beside its path, then renamed by commit(). Anything
+/// other than an ordinary file (/dev/stdout, a pipe) is written directly. Throws FileError.
 class OutputFile {
   public:
     explicit OutputFile(const std::string& path);
@@ -17,7 +17,7 @@ class OutputFile {
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// The files that writing to `path` touches: none for what is written directly.
+    /// The files that writing to `path` changes: none if it is written directly.
     static std::vector<std::filesystem::path> written_for(const std::string& path);
 
     void write(const std::string& text);

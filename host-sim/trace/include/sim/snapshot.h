@@ -14,7 +14,7 @@
 
 namespace nplc::sim {
 
-/// One command or register write that the sequence gave to the motor.
+/// One command or register write from the sequence to the motor.
 struct SentOrder {
     bool is_register_write = false;
     std::uint8_t command = 0;  ///< FastMAC, bits 6..0
@@ -23,9 +23,9 @@ struct SentOrder {
     bool operator==(const SentOrder&) const = default;
 };
 
-/// Everything a trace or a condition can look at, as it stands at one instant. `inputs` are the levels at the
-/// terminals, before the gateway's debouncing; `in_position` and `error` are what the gateway has taken as
-/// valid of the motor; `p_ist` and `v_ist` are what the motor really does.
+/// All values that a trace or a condition can use, at one instant. `inputs` are the levels at the terminals,
+/// before the gateway's debouncing; `in_position` and `error` are the motor's status as accepted by the
+/// gateway; `p_ist` and `v_ist` are the motor's actual values.
 struct Snapshot {
     Time time{0};
     std::uint8_t step = 0;
@@ -37,35 +37,37 @@ struct Snapshot {
     bool error = false;
     std::int32_t p_ist = 0;   ///< counts
     std::int32_t v_ist = 0;   ///< counts/sample
-    std::int64_t shaft = 0;   ///< counts from where it was at the beginning, whatever P_IST was set to
+    std::int64_t shaft = 0;   ///< counts from the initial position, independent of P_IST
     std::int32_t torque = 0;  ///< VF_OUT, 1023 = full
     bool link_up = false;
     bool running = false;
-    std::vector<SentOrder> orders;  ///< given since the snapshot before
+    std::vector<SentOrder> orders;  ///< given since the previous snapshot
 };
 
 inline constexpr unsigned kInputs = 6;
 inline constexpr unsigned kOutputs = 4;
 
-/// A unit of the machine, as the program's SCALE has it.
+/// The machine's unit, from the program's SCALE.
 struct MachineUnit {
     std::string name;    ///< `mm`
     double per_rev = 1;  ///< of the motor
 };
 
-/// What a program calls its steps and signals. Without names, `IN0`, `OUT0` and the step's number serve.
+/// A program's names of steps and signals. Without names: `IN0`, `OUT0` and the step's number.
 struct Names {
     std::array<std::string, kInputs> inputs;
     std::array<std::string, kOutputs> outputs;
     std::map<std::uint8_t, std::string> steps;
-    std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` means them too
-    std::map<std::string, std::vector<std::uint8_t>> groups;  ///< what `step in Name` means
+    std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` includes them
+    std::map<std::string, std::vector<std::uint8_t>> groups;  ///< meaning of `step in Name`
     std::map<std::string, std::uint32_t> times;               ///< in milliseconds
+    std::map<std::string, std::string> registers;             ///< the motor's, by the program's names
+    std::uint64_t numbers = 0;                                ///< bit n: the table has step n; 0: not known
     registers::Model motor = registers::Model::mac140;
-    const registers::DriveModel* drive = nullptr;  ///< of another family, in the motor's place
+    const registers::DriveModel* drive = nullptr;  ///< of another family, instead of the motor
     std::optional<MachineUnit> machine;
     set_points::Record set_points;
-    bool motor_alone = false;  ///< no gateway, no line to it
+    bool motor_alone = false;  ///< no gateway and no line to it
     bool free_pins = false;    ///< the motor's user interface is its pulse input, not FastMAC
 
     std::string input(unsigned index) const;

@@ -19,9 +19,9 @@ class CsvTrace {
 
     explicit CsvTrace(const std::string& path);
 
-    /// When the next row is due without any change.
+    /// Time of the next row without a change.
     Time next_due() const;
-    /// Writes a row if there is a change or one is due; times must not fall.
+    /// Writes a row if there is a change or one is due; times must not decrease.
     void observe(const Snapshot& snapshot);
     /// Writes `last` if it is newer than the last row.
     void finish(const Snapshot& last);
@@ -33,7 +33,7 @@ class CsvTrace {
     OutputFile file_;
     std::optional<Snapshot> last_;
     bool holds_ =
-        false;  ///< last_ was only due: it is written unless a change at its instant takes its place
+        false;  ///< last_ was due without a change: written unless a change at the same time replaces it
 };
 
 /// The trace as a value change dump (IEEE 1364), in microseconds, for GTKWave and its like. Signals have the
@@ -42,18 +42,18 @@ class CsvTrace {
 /// can be told apart.
 class VcdTrace {
   public:
-    /// `comment` stands in the header.
+    /// `comment` is written in the header.
     VcdTrace(const std::string& path, const Names& names, const std::string& comment = {});
 
-    /// Times must not fall.
+    /// Times must not decrease.
     void observe(const Snapshot& snapshot);
-    /// `end`: the last instant that was watched.
+    /// `end`: the last observed time.
     void finish(Time end);
 
   private:
     void header(const std::string& comment);
     void at(Time time);
-    /// Writes `value` under `name` if it is not what the file says already.
+    /// Writes `value` under `name` if it differs from the last one in the file.
     void put(const std::string& name, const std::string& value);
     void fall_back(Time time);
 

@@ -17,10 +17,10 @@ class Option {
     Option* required();
     Option* type_name(const std::string& name);
     Option* envname(const std::string& variable);
-    /// The variable's present value stands in the help as the default.
+    /// The variable's present value is shown in the help as the default.
     Option* capture_default_str();
     Option* delimiter(char between_values);
-    /// May stand several times, with one value each.
+    /// May be given several times, with one value each.
     Option* repeatable();
     /// Called with each value.
     Option* each(const std::function<void(const std::string&)>& take);
@@ -33,7 +33,7 @@ class Option {
     Option* one_of(const std::vector<std::string>& words);
 
     Option* excludes(Option* other);
-    /// One that is there already, with its dashes.
+    /// An option that exists already, given with its dashes.
     Option* excludes(const std::string& other);
 
   private:
@@ -59,7 +59,7 @@ struct ParseResult {
     };
     Kind kind = Kind::done;
     int exit_code = 0;    ///< when `told`
-    std::string error{};  ///< one line
+    std::string error{};  ///< one line, when `wrong`
 };
 
 /// A program's command line, or one of its commands. Variables must live as long as it.
@@ -85,12 +85,12 @@ class App {
     Option* add_option_function(const std::string& name, const std::function<void(const std::string&)>& take,
                                 const std::string& description);
     Option* add_flag(const std::string& name, bool& variable, const std::string& description);
-    /// Prints `text`, and which commit the program was built from (commit.h).
+    /// Adds --version, which prints `text` and the commit the program was built from (commit.h).
     void set_version_flag(const std::string& name, const std::string& text);
 
     App* add_subcommand(const std::string& name, const std::string& description);
     void require_subcommand(unsigned count);
-    /// `help [COMMAND]`: what --help says of it.
+    /// Adds `help [COMMAND]`, which prints the same as --help.
     void add_help_command();
     /// Options that a command does not know are looked for in the App above it.
     void fallthrough();

@@ -10,7 +10,7 @@
 
 namespace nplc::arguments {
 
-/// What the command line's description does not tell.
+/// What the description of the command line does not contain.
 struct About {
     std::string version;
     std::string title;                    ///< "a NanoPLC gateway from a terminal"

@@ -44,17 +44,17 @@ class UserError : public Failure {
     explicit UserError(const std::string& what) : Failure(kUsageOrFile, what) {}
 };
 
-/// What stands before or behind every subcommand.
+/// The common options, given before or after a subcommand.
 struct Common {
     std::string program;  ///< its name
     std::string port;
-    std::string password_file;  ///< of a gateway's port that asks for one; empty: none
+    std::string password_file;  ///< for a gateway's port that requires one; empty: none
     std::uint32_t baud = 19'200;
-    bool has_baud = false;  ///< it was said
+    bool has_baud = false;  ///< --baud was given
     std::uint32_t baud_or(std::uint32_t usual) const { return has_baud ? baud : usual; }
     unsigned address = 0;
     unsigned patience_ms = 150;
-    unsigned attempts = 10;  ///< of each question
+    unsigned attempts = 10;  ///< of each request
     bool json = false;
     int exit_code = kOk;
 };

@@ -23,15 +23,15 @@ struct Image {
     bool is_text = false;  ///< bytes_in: text, but no Intel HEX
 };
 
-/// Takes data records in any order and of any length, with segment or linear addresses, as long as they leave
-/// no gap and never overlap. Start addresses (records 03, 05) are read over; so are blank lines.
+/// Accepts data records in any order and of any length, with segment or linear addresses, as long as they
+/// leave no gap and do not overlap. Start addresses (records 03, 05) and blank lines are ignored.
 Image read(std::string_view text);
 
 /// What a file holds, raw or as Intel HEX (`is_file`). Other text is an error without a line.
 Image bytes_in(std::string_view file_name, std::string content);
 
 /// Whether a file is to be read as Intel HEX: its name ends in .hex, .ihx or .ihex in any case, or its first
-/// line is a colon and hex digits, which no sequence table begins with in earnest.
+/// line is a colon and hex digits, which no real sequence table begins with.
 bool is_file(std::string_view file_name, std::string_view content);
 bool has_extension(std::string_view file_name);
 

@@ -8,42 +8,40 @@
 #include "macreg/motor.h"
 #include "registers/gateway.h"
 
-/// One register's change, read back, and why it was not taken if it was not.
+/// The change of one register, read back, and the reason if it was not accepted.
 namespace nplc::macreg {
 
 struct ChangeResult {
     std::int64_t before = 0;
     std::int64_t after = 0;
     bool taken = true;
-    std::string why{};     ///< a sentence with the remedy, if it was not taken
-    std::string remark{};  ///< what the owner should know all the same
+    std::string why{};     ///< a sentence with the remedy, if it was not accepted
+    std::string remark{};  ///< a note for the user although it was accepted
 };
 
-/// Writes `raw` with the register's exact width and reads it back. A new address (MYADDR) is read back under
-/// itself. A write that a gateway does not let through is an outcome too; a motor that does not answer is a
-/// LineError.
+/// Writes `raw` with the register's exact width and reads it back. A new address (MYADDR) is read back at the
+/// new address. A write that a gateway refuses is a result too; a motor that does not answer is a LineError.
 ChangeResult change(Motor& motor, const registers::Register& reg, std::int64_t raw);
 
-/// Why this value is no mode that `change` may give MODE_REG or STARTMODE, with what to do instead; empty: it
-/// is one. 256 to 258 would act on a motor in SAFE_MODE, on its flash (001 §4.4.16).
+/// Why `change` may not give this value to MODE_REG or STARTMODE, with what to do instead; empty: it may. 256
+/// to 258 would act on a motor in SAFE_MODE, on its flash (001 §4.4.16).
 std::string no_mode(registers::Model model, const registers::Register& reg, std::int64_t raw);
 
 /// "ERR_STAT has FLW_ERR"; empty if none of the errors that keep the motor in INIT_MODE is set.
 std::string errors_text(registers::Model model, std::int64_t err_stat);
 
-/// What may go wrong with this value, for a question; empty: nothing that `set` would ask about. Registers
-/// that are dangerous, and the maker's test modes, which turn the shaft without regulating it (001 §4.4.8 to
-/// §4.4.11; 004: "reserved").
+/// The risk of this value, for a question; empty: none that `set` would ask about. Registers that are
+/// dangerous, and the maker's test modes, which turn the shaft without regulating it (001 §4.4.8 to §4.4.11;
+/// 004: "reserved").
 std::string danger(registers::Model model, const registers::Register& reg, std::int64_t raw);
 
-/// What a gateway did not let through.
+/// What a gateway refused to pass on.
 enum class Asked : std::uint8_t {
     write,    ///< of a register
     service,  ///< SAFE_MODE, flash, reset
 };
 
-/// What a gateway between us and the motor says of a message that it did not let through; empty if there is
-/// none.
+/// The reason that a gateway on the line gives for a message it refused; empty if there is no gateway.
 std::string gateway_refusal(Motor& motor, Asked asked);
 
 // MIN_P_IST and MAX_P_IST, which act together (001 §3.2.28, §4.5.3), when they are about to be written.
@@ -51,16 +49,16 @@ std::string gateway_refusal(Motor& motor, Asked asked);
 /// Raw values by register number.
 using RawValues = std::map<std::uint8_t, std::int64_t>;
 
-/// What decides whether the shaft is inside: both limits, P_IST and ERR_STAT. Empty if `wanted` touches none
-/// of it.
+/// The values that decide whether the shaft is inside: both limits, P_IST and ERR_STAT. Empty if `wanted`
+/// changes none of them.
 RawValues read_limits(Motor& motor, const RawValues& wanted);
-/// What goes wrong with the limits as `wanted` leaves them, for a question: no place is inside any more, or
-/// the shaft is not. Empty: nothing that was not wrong before.
+/// The problem with the limits as `wanted` leaves them, for a question: no position is inside any more, or
+/// the shaft is outside. Empty: no new problem.
 std::string limits_danger(const RawValues& now, const RawValues& wanted);
-/// Whether the shaft would be outside with MIN_P_IST alone written, and not with MAX_P_IST alone.
+/// Whether the shaft would be outside after writing MIN_P_IST alone, but not after writing MAX_P_IST alone.
 bool maximum_first(const RawValues& now, const RawValues& wanted);
 
-/// Puts MAX_P_IST before MIN_P_IST, or behind it: the order in which the shaft is outside at no time.
+/// Orders MAX_P_IST and MIN_P_IST so that the shaft is outside at no time.
 template <class Write>
 void order_limits(const RawValues& now, const RawValues& wanted, std::vector<Write>& all) {
     const auto at = [&](std::uint8_t number) {

@@ -16,30 +16,31 @@
 /// A MAC motor's registers over its MacTalk line, whichever model (001 §3.2, §5.1, 004).
 namespace nplc::macreg {
 
-/// MYADDR, or as a MAC800 calls it.
+/// MYADDR, or its name on a MAC800.
 const registers::Register& address_register(registers::Model model);
 /// SERIAL_NMB.
 const registers::Register& serial_register(registers::Model model);
-/// "MAC800", "MAC50 to MAC141": what a motor's own answers tell of its model.
+/// "MAC800", "MAC50 to MAC141": what the motor's own answers show of its model.
 std::string family_words(registers::Model model);
 
-/// What answers is no motor.
+/// The unit that answers is no motor.
 class WrongUnit : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
     using EndedWith::EndedWith;
 };
 
-/// A write that got no accept and was not repeated, since twice is not once: it may have been carried out.
+/// A write without an accept that was not repeated, because the register must be written only once: it may
+/// have been carried out.
 class Unconfirmed : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
     using EndedWith::EndedWith;
 };
 
-/// All that asks throws mactalk_client::LineError. Reads are repeated, up to the master's attempts.
+/// All requests throw mactalk_client::LineError. Reads are repeated, up to the master's attempts.
 class Motor {
   public:
     using Model = registers::Model;
     using Register = registers::Register;
 
-    /// `address` 255 is everyone: right for a single motor only.
+    /// `address` 255 is the broadcast address: for a single motor only.
     Motor(mactalk_client::Master& master, std::uint8_t address, Model model)
         : master_(master), address_(address), model_(model) {}
 
@@ -62,19 +63,19 @@ class Motor {
     /// By a name of 001 §3.2 that the model has.
     std::int64_t read(std::string_view name) { return read(*find(name)); }
 
-    /// In as few messages as it takes. Registers that lie close together come in one block, as below.
+    /// In as few messages as possible. Registers that lie close together are read as one block, as below.
     Snapshot read_block(std::span<const Register* const> registers);
     /// The registers of the map that lie in the block of 64 bytes from `first` on. All of one instant, unless
-    /// the block came damaged twice, or through a gateway: then each is asked for alone.
+    /// the block was damaged twice, or through a gateway: then each register is read alone.
     Snapshot read_block(std::uint8_t first);
 
-    /// Of the register's exact width, so that no other changes. Out of its format's range: std::out_of_range.
-    /// What may be written twice is repeated until accepted; else Unconfirmed.
+    /// With the register's exact width, so that no other register changes. Out of its format's range:
+    /// std::out_of_range. A write that may be repeated is repeated until accepted; else Unconfirmed.
     void write(const Register& reg, std::int64_t value);
-    /// Once, for registers where writing twice is not writing once. False: no accept came.
+    /// Sent once, for registers that must not be written twice. False: no accept came.
     bool try_write(const Register& reg, std::int64_t value);
 
-    /// Whether something at the gateway's address says that it is one. Asked once in a program's life.
+    /// Whether a unit at the gateway's address identifies itself as one. Asked once per run of the program.
     bool is_behind_gateway();
 
   private:
@@ -114,12 +115,14 @@ struct FinderOptions {
 
 struct Found {
     std::vector<FoundUnit> units{};
-    bool noise = false;  ///< bytes came that were no answer: a wrong speed, or several units at once
+    bool noise =
+        false;  ///< bytes were received that were no answer: a wrong baud rate, or several units at once
     unsigned asked = 0;  ///< addresses that were asked one by one
 };
 
-/// At one speed. Silence to 255 ends it at once; a single motor is known by its own answer, several by asking
-/// each address. Writes nothing. Throws LineError if the port is gone, mactalk_client::Interrupted.
+/// At one baud rate. No answer to 255 ends the search at once; a single motor is identified by its own
+/// answer, several by requests to each address. Writes nothing. Throws LineError if the port is gone,
+/// mactalk_client::Interrupted.
 Found find_units(host::ByteClient& wire, const FinderOptions& options);
 
 }  // namespace nplc::macreg

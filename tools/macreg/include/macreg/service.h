@@ -15,30 +15,30 @@ class NotDone : public mactalk_client::EndedWith<mactalk_client::kRefused> {
     using EndedWith::EndedWith;
 };
 
-/// What was done to the motor so far: who breaks off has to know.
+/// What has been done to the motor so far, to report after an early end.
 struct Trail {
     enum class Order : std::uint8_t { none, sent, done };
 
-    std::string ran_in{};       ///< the mode it was told to stop in; empty: it was passive
-    bool stopped = false;       ///< it has done so
-    std::string turns{};        ///< "V_IST 200 rpm" if it still turned when waiting for that ended
-    bool in_safe_mode = false;  ///< it could not be taken out again
+    std::string ran_in{};       ///< the mode in which it was commanded to stop; empty: it was passive
+    bool stopped = false;       ///< the stop has been confirmed
+    std::string turns{};        ///< "V_IST 200 rpm" if it was still turning when the wait ended
+    bool in_safe_mode = false;  ///< it could not be brought out of it again
     Order order = Order::none;  ///< to write flash, to reset, to read parameters
 
     /// "the motor ran in P_MODE and was stopped: ...", of one that ran.
     std::string stop_words() const;
 };
 
-/// Tells a motor that runs to stop, and waits until it is passive, for 10 s at the most. `goes_on` false:
+/// Stops a running motor, and waits until it is passive, for 10 s at the most. `goes_on` false:
 /// mactalk_client::Interrupted.
 void stop_motor(Motor& motor, const std::function<bool()>& goes_on, Trail& trail);
 
-/// Holds the motor in SAFE_MODE. At the end of its life the motor is as it was found: passive, or in
-/// SAFE_MODE if it had been in it.
+/// Holds the motor in SAFE_MODE. The destructor restores the mode found before: passive, or SAFE_MODE if it
+/// had been in it.
 class SafeMode {
   public:
-    /// The motor must be passive; with `stop` one that runs is stopped first, and stays passive. `goes_on`
-    /// false: mactalk_client::Interrupted. Writes down in `trail` what it does.
+    /// The motor must be passive; with `stop` a running one is stopped first, and stays passive. `goes_on`
+    /// false: mactalk_client::Interrupted. Records in `trail` what it does.
     SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail& trail);
     ~SafeMode();
     SafeMode(const SafeMode&) = delete;
@@ -56,29 +56,29 @@ class SafeMode {
     bool left_ = false;
 };
 
-/// In SAFE_MODE, after which the motor is not in it any more.
+/// To be called in SAFE_MODE; afterwards the motor is no longer in it.
 class Service {
   public:
     Service(Motor& motor, std::function<bool()> goes_on) : motor_(motor), goes_on_(std::move(goes_on)) {}
-    /// A motor that moves may not be stopped unless said.
+    /// A moving motor is stopped only if `stop` is given.
     void allow_stop() { stop_ = true; }
 
     void enter_safe();
     void exit_safe();
-    /// What the motor has in memory goes into its flash, then it resets. Names of parameters that the motor
-    /// has other than before; none if all is well.
+    /// Saves the motor's memory to its flash, after which it resets. Returns the names of parameters that
+    /// differ from before; none if all are equal.
     std::vector<std::string> save();
     /// MODE_REG 256 (into flash, with a reset) or 257 (not into flash).
     void defaults(bool into_flash);
     /// MODE_REG 258: the flash's parameters.
     void reload();
-    /// 57h. What was not saved is gone.
+    /// 57h. Unsaved values are lost.
     void reset();
     /// The mode in which the motor is now.
     std::int64_t mode() { return motor_.read(registers::MODE_REG); }
 
     const Trail& trail() const { return trail_; }
-    /// Of the last call, if it ended early: what became of flash, memory and mode, and what to look at.
+    /// The last call, if it ended early: the state of flash, memory and mode, and what to check.
     std::string left_behind() const;
 
   private:

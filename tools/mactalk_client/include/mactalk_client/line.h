@@ -12,13 +12,13 @@
 
 namespace nplc::mactalk_client {
 
-/// What a task may end with, as a program's exit code.
+/// The result of a task, as a program's exit code.
 enum Exit : int {
     kOk = 0,
-    kRefused = 1,        ///< the other end said no, or two things differ
+    kRefused = 1,        ///< the other end refused, or two things differ
     kUsageOrFile = 2,    ///< wrong usage, or a file that cannot be read, written or understood
-    kNoAnswer = 3,       ///< the port cannot be opened, or nobody answers
-    kNotConfirmed = 4,   ///< a stop, safe or hold that was not seen to be done
+    kNoAnswer = 3,       ///< the port cannot be opened, or there is no answer
+    kNotConfirmed = 4,   ///< a stop, safe or hold that was not confirmed
     kInterrupted = 130,  ///< by SIGINT or SIGTERM, before it was done
 };
 
@@ -42,9 +42,9 @@ class LineError : public EndedWith<kNoAnswer> {
   public:
     enum class Kind : std::uint8_t {
         port_gone,
-        port_full,  ///< it may be had a moment later
+        port_full,  ///< temporary: may be free a moment later
         no_answer,
-        no_message,  ///< what no message can say: register 0, a wrong length
+        no_message,  ///< not representable in a message: register 0, a wrong length
     };
     LineError(Kind kind, const std::string& what) : EndedWith(what), kind_(kind) {}
     Kind kind() const { return kind_; }
@@ -53,23 +53,24 @@ class LineError : public EndedWith<kNoAnswer> {
     Kind kind_;
 };
 
-/// The user has had enough: thrown by what takes long, between two questions.
+/// The user has cancelled: thrown by long operations, between two requests.
 class Interrupted : public EndedWith<kInterrupted> {
     using EndedWith::EndedWith;
 };
 
-/// What a master of any protocol does on a serial line on which one question is under way at a time:
-/// deadlines, time that passes, silence after a question without an answer, and what is said when the far end
-/// is gone.
+/// The part common to masters of all protocols on a serial line with one pending request at a time:
+/// deadlines, waiting, silence after a request without an answer, and the error text when the far end is
+/// gone.
 class Line {
   public:
     struct Options {
-        std::uint32_t baud;           ///< what messages take on the line; sockets are taken to be as slow
-        base::Microseconds patience;  ///< beyond the time that question and answer take on the line
-        /// Of a far end that takes no other client: what it does, and what the user is to do.
+        std::uint32_t baud;           ///< for transmission times; sockets are assumed to be as slow
+        base::Microseconds patience;  ///< in addition to the transmission time of request and answer
+        /// The error text for a far end that refuses a second client: what it does, and what the user should
+        /// do.
         const char* full;
         const char* perhaps_full;
-        /// Sees all that comes, whatever it is part of.
+        /// Called with all bytes received.
         std::function<void(std::span<const std::uint8_t>)> received{};
     };
 
@@ -78,15 +79,15 @@ class Line {
     host::ByteClient& port() { return port_; }
     const std::string& name() const { return port_.name(); }
     base::Instant now() const { return port_.now(); }
-    /// Something came since it was opened.
+    /// Bytes have been received since it was opened.
     bool heard_anything() const { return heard_any_; }
-    /// What so many bytes take on the line.
+    /// The transmission time of so many bytes.
     base::Microseconds time_of(std::size_t bytes) const;
 
-    /// This and what follows throws LineError if the far end is gone.
+    /// This and the following functions throw LineError if the far end is gone.
     void send(std::span<const std::uint8_t> bytes);
-    /// Gives what comes to `take`, a piece at a time, until it is content or the time for a question and its
-    /// answer of so many bytes is over, and says whether it was content.
+    /// Passes received bytes to `take`, a piece at a time, until it returns true or the time for a request
+    /// and an answer of so many bytes is over; returns whether it returned true.
     template <class Take>
     bool listen(std::size_t bytes, Take take, base::Microseconds more_patience = {}) {
         const base::Instant end = now() + options_.patience + more_patience + time_of(bytes);
@@ -96,12 +97,12 @@ class Line {
         }
         return false;
     }
-    /// An answer to the last question may still be on its way.
+    /// An answer to the last request may still arrive.
     void expect_late_answer();
-    /// Reads over what came before the next question; how many bytes. With `in_silence`, where an answer does
-    /// not say whose it is, the line must have been silent for as long as a late one may take.
+    /// Discards what was received before the next request; returns how many bytes. With `in_silence`, for
+    /// answers that carry no address, the line must have been silent for as long as a late answer may take.
     std::uint64_t settle(bool in_silence);
-    /// Lets time pass; how many bytes came meanwhile and were read over.
+    /// Waits; returns how many bytes were received meanwhile and discarded.
     std::uint64_t pause(base::Microseconds time);
 
   private:

@@ -13,7 +13,7 @@ struct CanOptions {
     base::Microseconds longest_boot{3'000'000};  ///< R: 000 §VI 00h has two seconds
 };
 
-/// 003 §V. Frames of others are read over.
+/// 003 §V. Frames of other nodes are discarded.
 class CanLink final : public Link {
   public:
     explicit CanLink(host::CanClient& can, const CanOptions& options = {}) : can_(can), options_(options) {}
@@ -35,8 +35,8 @@ class CanLink final : public Link {
     bool heard_anything() const override { return heard_any_; }
 
     /// The whole LMT procedure (003 §V.5) with the only module on the bus; true when it has booted with the
-    /// new address. `refused`: it said no to the address. `several`: more than one answered, so the procedure
-    /// was broken off: none has the new address, and all wait in configuration until they are switched off.
+    /// new address. `refused`: it refused the address. `several`: more than one answered, so the procedure
+    /// was cancelled: none has the new address, and all stay in configuration until they are switched off.
     enum class Programmed : std::uint8_t { done, refused, silence, several };
     Programmed program_address(std::uint8_t address);
 
@@ -50,7 +50,7 @@ class CanLink final : public Link {
     CanOptions options_;
     std::string sent_;
     std::string heard_;
-    std::bitset<protocol::midi_can::kMaxAddress + 1U> boots_;  ///< heard, by address
+    std::bitset<protocol::midi_can::kMaxAddress + 1U> boots_;  ///< received, by address
     bool heard_any_ = false;
     bool foreign_sync_ = false;
 };

@@ -6,11 +6,11 @@
 
 namespace nplc::midi_client {
 
-/// Segments that wait beside the one that runs (000 §VI 16h; R).
+/// Segments that a module queues in addition to the running one (000 §VI 16h; R).
 inline constexpr std::size_t kFifo = 3;
 
-/// Which module gets its next segment when, so that no FIFO is offered more than it holds or runs empty. Time
-/// in ticks from the moment at which all modules begin with their lead-in together.
+/// Schedules the segments of all modules, so that no FIFO overflows or runs empty. Time in ticks from the
+/// common start of all lead-ins.
 class Feed {
   public:
     /// Keeps a reference to `plan`.
@@ -19,13 +19,13 @@ class Feed {
     struct Next {
         std::size_t axis = 0;
         Segment segment{};
-        std::int64_t free = 0;      ///< from then on its FIFO has a place
+        std::int64_t free = 0;      ///< from then on its FIFO has a free place
         std::int64_t deadline = 0;  ///< its FIFO is empty and the segment before has ended: too late
     };
-    /// Of all axes the one whose FIFO runs empty first of those that have a place first; nothing when all is
-    /// sent.
+    /// Of the axes whose FIFO gets a free place first, the one whose FIFO runs empty first; nullopt when all
+    /// is sent.
     std::optional<Next> next() const;
-    /// The segment of next() was taken.
+    /// The segment of next() was accepted.
     void taken(std::size_t axis);
     std::size_t sent(std::size_t axis) const { return axes_[axis].sent; }
     std::int64_t end() const;
@@ -41,8 +41,8 @@ class Feed {
     std::vector<Axis> axes_;
 };
 
-/// Whether messages that take `message` ticks each can keep all FIFOs fed, with `reserve` ticks to spare;
-/// empty, or a sentence on what cannot be kept up.
+/// Whether messages that take `message` ticks each can keep all FIFOs filled, with a margin of `reserve`
+/// ticks; empty, or a sentence on what is too fast.
 std::string feeding_problem(const Plan& plan, std::int64_t lead_in, std::int64_t message,
                             std::int64_t reserve);
 

@@ -28,14 +28,14 @@ struct Answer {
     enum class Kind : std::uint8_t {
         accepted,   ///< the command was carried out
         value,      ///< the query was answered
-        refused,    ///< understood and not carried out
-        not_taken,  ///< the module did not understand: not carried out
+        refused,    ///< received but not carried out
+        not_taken,  ///< not understood by the module: not carried out
         unclear,    ///< a damaged answer; a command may have been carried out
-        silence,    ///< nothing came; a command may have been carried out
+        silence,    ///< no answer; a command may have been carried out
     };
     Kind kind = Kind::silence;
     std::uint32_t value = 0;
-    /// `refused` was said with 18h, as some modules do; a single damaged bit makes that of Xon.
+    /// `refused` by 18h, as some modules answer; a single damaged bit turns Xon into it.
     bool by_18h = false;
 };
 
@@ -48,30 +48,30 @@ class Link {
     /// Sends it once and waits for its answer. Throws LineError if the port is gone.
     virtual Answer ask(const Request& request) = 0;
     /// Starts what WAIT_SYNC prepared in all modules at once: command 11h to all (000 §VI), or SYNC (003
-    /// §V.4), to which nobody answers.
+    /// §V.4), which has no answer.
     virtual Answer synchronise() = 0;
-    /// The address of all modules: all act, one answers (FFh and 00 on V24, 0 and 1 on CAN).
+    /// The broadcast address: all act, one answers (FFh and 00 on V24, 0 and 1 on CAN).
     virtual std::uint8_t everyone() const = 0;
-    /// What a module from the factory has.
+    /// The factory's address.
     virtual std::uint8_t usual_address() const = 0;
-    /// A command with its answer takes this long at the least.
+    /// The minimum time of a command with its answer.
     virtual base::Microseconds exchange_time() const = 0;
 
-    /// Lets time pass; what comes meanwhile is read over.
+    /// Waits; what is received meanwhile is discarded.
     virtual void pause(base::Microseconds time) = 0;
     virtual base::Instant now() = 0;
 
-    /// The last request and what came back, as a user writes it: "02 30 31 .. 03", "601#2313200000000320".
+    /// The last request and its answer, as a user writes it: "02 30 31 .. 03", "601#2313200000000320".
     virtual std::string last_sent() const = 0;
     virtual std::string last_heard() const = 0;
-    /// The module has said that it started anew, since this was asked last. Only on CAN (003 §V.2).
+    /// The module has reported a restart since the last call. Only on CAN (003 §V.2).
     virtual bool take_boot(std::uint8_t) { return false; }
-    /// Another master has sent SYNC, since this was asked last. Only on CAN (003 §V.4).
+    /// Another master has sent SYNC since the last call. Only on CAN (003 §V.4).
     virtual bool take_foreign_sync() { return false; }
-    /// Something came since the link was opened, answer or not.
+    /// Anything was received since the link was opened.
     virtual bool heard_anything() const = 0;
 
-    /// Of an address: whether more answers come than requests.
+    /// Whether an address gives more answers than it got requests.
     const protocol::AnswerCount& answers(std::uint8_t address) const { return answers_[address]; }
 
   protected:

@@ -12,29 +12,29 @@
 
 namespace nplc::midi_client {
 
-/// The module understood and said no.
+/// The module understood the command and refused it.
 class Refused : public mactalk_client::EndedWith<mactalk_client::kRefused> {
   public:
     explicit Refused(const std::string& what, bool by_18h = false) : EndedWith(what), by_18h_(by_18h) {}
-    /// It may have been carried out all the same: see Answer::by_18h.
+    /// It may nevertheless have been carried out: see Answer::by_18h.
     bool by_18h() const { return by_18h_; }
 
   private:
     bool by_18h_;
 };
 
-/// Whether the module carried a command out is not known.
+/// It is unknown whether the module carried out the command.
 class Unconfirmed : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
     using EndedWith::EndedWith;
 };
 
-/// More than one module answers to an address: what moves one moves both, and readings are of either.
+/// More than one module answers to an address: a motion command moves both, and readings are of either.
 class SameAddress : public mactalk_client::EndedWith<mactalk_client::kRefused> {
     using EndedWith::EndedWith;
 };
 
-/// A master of MIDI modules (000, 003). Asks again, up to `attempts` times, where that can do no harm:
-/// queries, what a module said not to have understood, and stops. Throws LineError and SameAddress, too.
+/// A master of MIDI modules (000, 003). Repeats requests, up to `attempts` times, where that can do no harm:
+/// queries, commands that a module did not understand, and stops. Throws LineError and SameAddress, too.
 class Master {
   public:
     explicit Master(Link& link, unsigned attempts = 10) : link_(link), attempts_(attempts) {}
@@ -42,27 +42,27 @@ class Master {
     Link& link() { return link_; }
 
     std::uint32_t query(std::uint8_t address, registers::midi::Query query, std::uint8_t sub_index = 0);
-    /// The same, asked once: for who looks whether anybody is there. Silence is nothing.
+    /// The same, requested once: for scans. nullopt without an answer.
     Answer try_query(std::uint8_t address, registers::midi::Query query);
 
-    /// Before something moves: asks, and waits for a second module's answer. GET_RELEASE's. Throws
-    /// SameAddress.
+    /// Before a motion: sends a request, and waits for a second module's answer. Returns GET_RELEASE's value.
+    /// Throws SameAddress.
     std::uint32_t expect_alone(std::uint8_t address);
 
     /// Throws Refused, Unconfirmed.
     void command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
-    /// The last answer; never `not_taken` unless that was said `attempts` times.
+    /// The last answer; `not_taken` only after `attempts` of it.
     Answer try_command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
     Answer try_request(const Request& request);
 
     std::int32_t position(std::uint8_t address);
     std::uint32_t status(std::uint8_t address);
-    /// The position is not the one wanted yet, or the module cannot follow (the BUSY output).
+    /// The target has not been reached yet, or the module cannot follow (the BUSY output).
     bool busy(std::uint8_t address);
 
-    /// EMERGENCY_STOP to each until accepted; the addresses that did not.
+    /// EMERGENCY_STOP to each until accepted; returns the addresses that did not accept.
     std::vector<std::uint8_t> stop_hard(std::span<const std::uint8_t> addresses);
-    /// Sleeps in steps as long as `goes_on`; throws Interrupted.
+    /// Sleeps in steps while `goes_on` returns true; throws Interrupted.
     void pause(base::Microseconds time, const std::function<bool()>& goes_on);
 
   private:
@@ -75,7 +75,7 @@ class Master {
     bool answered_ = false;
 };
 
-/// A second one does no harm, a missing one does.
+/// May be repeated without harm, and must not be lost.
 constexpr bool is_stop(std::uint8_t command) {
     using namespace registers::midi;
     return command == STOP || command == EMERGENCY_STOP || command == POWER_OFF;

@@ -16,7 +16,7 @@ namespace nplc::nanoctl {
 
 namespace gw = registers::gateway;
 
-/// The gateway said no.
+/// The gateway refused.
 class Refused : public mactalk_client::EndedWith<mactalk_client::kRefused> {
   public:
     Refused(gw::Result result, std::uint8_t reg, std::uint16_t detail, const std::string& what)
@@ -31,19 +31,19 @@ class Refused : public mactalk_client::EndedWith<mactalk_client::kRefused> {
     std::uint16_t detail_;
 };
 
-/// What answers is no gateway, or one whose register map this program does not know.
+/// The unit that answers is no gateway, or has a register map unknown to this program.
 class WrongDevice : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
     using EndedWith::EndedWith;
 };
 
 using mactalk_client::Interrupted;
 
-/// Sixteen registers taken at one instant.
+/// Sixteen registers of one instant.
 using Block = std::array<std::uint32_t, 16>;
 
-/// A gateway's registers over MacTalk. A write that gets no accept was refused or lost; the gateway's RESULT
-/// tells which, and lost ones are sent again. Everything throws mactalk_client::LineError, Refused and
-/// WrongDevice, what takes long Interrupted too.
+/// A gateway's registers over MacTalk. A write without an accept was refused or lost; the gateway's RESULT
+/// shows which, and lost ones are sent again. Everything throws mactalk_client::LineError, Refused and
+/// WrongDevice; long operations Interrupted too.
 class GatewayClient {
   public:
     static constexpr base::Milliseconds kStillWait{5'000};
@@ -57,26 +57,26 @@ class GatewayClient {
 
     std::uint32_t read(std::uint8_t reg) { return master_.read(address_, reg); }
     Block read_block(std::uint8_t reg);
-    /// Asked once.
+    /// Requested once.
     std::optional<Block> try_read_block(std::uint8_t reg);
 
     void write(std::uint8_t reg, std::uint32_t value);
-    /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5
-    /// s, and kConfirmationWait for a motor that has not confirmed its stop yet, that of a start, say.
+    /// Carried out exactly once. `more_patience`: additional timeout. For a `busy` gateway it waits up to 5
+    /// s, and kConfirmationWait for a motor that has not confirmed its stop yet, such as before a start.
     void command(gw::Command command, base::Microseconds more_patience = {});
-    /// Restarts the gateway and waits until it answers; address() may be another one then.
+    /// Restarts the gateway and waits until it answers; address() may have changed then.
     void reset();
-    /// The stored table becomes the active one; waits up to kStillWait for the motor to stand still.
+    /// Activates the stored table; waits up to kStillWait for the motor to stand still.
     void activate();
 
-    /// Asked between two looks or pieces of what takes long; false ends it by Interrupted.
+    /// Called between two requests of long operations; false ends them by Interrupted.
     void set_goes_on(std::function<bool()> goes_on) { goes_on_ = std::move(goes_on); }
     void look_for_interruption() const;
 
     mactalk_client::Master& master() { return master_; }
     std::uint8_t address() const { return address_; }
 
-    /// RESULT: of the last write, whoever's.
+    /// RESULT: of the last write by any client.
     struct LastResult {
         gw::Result result;
         std::uint8_t reg;

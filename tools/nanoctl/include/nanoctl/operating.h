@@ -7,7 +7,7 @@
 
 namespace nplc::nanoctl {
 
-/// Who operates a gateway, as its registers OPERATOR to OPERATOR_LEFT tell the client that asks.
+/// The operator of a gateway, as its registers OPERATOR to OPERATOR_LEFT show it to the requesting client.
 struct Operator {
     gw::OperatorWay way = gw::OperatorWay::nobody;
     bool is_you = false;
@@ -18,7 +18,7 @@ struct Operator {
 Operator read_operator(GatewayClient& gateway);
 /// "uid 1000 on the socket", "127.0.0.1 over TCP", "the panel", "nobody".
 std::string in_words(const Operator& who);
-/// For who may not operate now: who does, and how to take over.
+/// For a client that is not the operator: who is, and how to take over.
 std::string why_seat_is_taken(GatewayClient& gateway);
 
 }  // namespace nplc::nanoctl

@@ -8,9 +8,9 @@
 
 namespace nplc::nanoctl {
 
-/// A client that is connected again whenever the other end closes the connection, until `patience` has passed
-/// since this object was made: what is sent while it is not connected is lost, as on a bad line. After that
-/// the other end is gone.
+/// A client that reconnects whenever the other end closes the connection, until `patience` has passed since
+/// this object was made; what is sent while it is not connected is lost, as on a bad line. After that the
+/// other end counts as gone.
 class Reconnecting final : public host::ByteClient {
   public:
     using Open = std::function<Opened()>;
@@ -32,7 +32,7 @@ class Reconnecting final : public host::ByteClient {
   private:
     bool connect();
 
-    std::unique_ptr<ByteClient> client_;  ///< the last one, for its name and time, where none is connected
+    std::unique_ptr<ByteClient> client_;  ///< the last one, for its name and clock while disconnected
     Open open_;
     Sleep sleep_;
     base::Instant end_;

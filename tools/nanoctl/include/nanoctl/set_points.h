@@ -12,16 +12,16 @@ namespace nplc::nanoctl {
 
 struct KeptSetPoints {
     set_points::Record record;
-    std::size_t recipes = 0;  ///< that there is room for
+    std::size_t recipes = 0;  ///< capacity
     std::uint32_t state = 0;  ///< SET_POINT_STATE
     std::vector<std::int32_t> in_force;
     std::vector<std::int32_t> wanted;
 };
 
-/// The gateway's firmware keeps set-points.
+/// The gateway's firmware supports set-points.
 bool takes_set_points(GatewayClient& gateway);
 
-/// Throws Refused if its firmware keeps none or the active table has none.
+/// Throws Refused if its firmware does not support them or the active table has none.
 KeptSetPoints read_set_points(GatewayClient& gateway);
 
 /// Those that have a name.
@@ -31,15 +31,16 @@ std::vector<set_points::Recipe> read_recipes(GatewayClient& gateway, const KeptS
 struct KnownChanges {
     set_points::Record record;
     std::vector<set_points::Change> changes;
-    std::uint32_t record_since = 0;  ///< the log's entry from which on the record is that of the table in use
+    std::uint32_t record_since = 0;  ///< the first log entry that belongs to the active table
 };
 KnownChanges read_changes(GatewayClient& gateway);
 
-/// Of the table that has just become active: the set-points whose kept values did not fit, "Length, Pieces".
+/// For the table that has just become active: the set-points whose stored values did not fit, "Length,
+/// Pieces".
 std::string read_dropped(GatewayClient& gateway, const set_points::Record& record);
 
-/// Whole or not at all, once, and waits for its real end however slow the gateway stores; Refused says which
-/// value and its limits. `request` without a number of its own.
+/// Carries a request out completely or not at all, once, and waits for its end even if the gateway stores
+/// slowly; Refused names the value and its limits. `request` without a number of its own.
 void write_set_points(GatewayClient& gateway, const set_points::Record& record,
                       std::vector<std::uint8_t> request);
 

@@ -10,7 +10,7 @@
 
 namespace nplc::nanoctl {
 
-/// Registers 16 to 31, taken apart (firmware/gateway/REGISTERS.md).
+/// Registers 16 to 31, decoded (firmware/gateway/REGISTERS.md).
 struct Status {
     explicit Status(const Block& block);
 
@@ -19,12 +19,12 @@ struct Status {
     std::uint32_t bits;
     gw::RunState run_state;
     gw::SafeReason safe_reason;
-    std::uint32_t safe_since;  ///< ms, as uptime
+    std::uint32_t safe_since;  ///< ms, on the time scale of uptime
     std::uint32_t uptime;      ///< ms
     std::uint8_t step;
     std::uint16_t timer;  ///< ms
     std::uint16_t counter;
-    std::uint8_t inputs;     ///< as the sequence has them
+    std::uint8_t inputs;     ///< as the sequence sees them
     std::uint8_t terminals;  ///< of the inputs, debounced
     std::uint8_t outputs;
     std::uint8_t written_outputs;  ///< by the sequence
@@ -37,7 +37,7 @@ struct Status {
     std::uint32_t log_count;
 };
 
-/// What steps, inputs and outputs are called: by a symbol file, else as IN2 and OUT0.
+/// Names of steps, inputs and outputs: from a symbol file, else IN2 and OUT0.
 class Names {
   public:
     Names() = default;
@@ -56,6 +56,8 @@ class Names {
     std::optional<unsigned> find_input(const std::string& text) const;
     std::optional<unsigned> find_output(const std::string& text) const;
     std::optional<unsigned> find_step(const std::string& text) const;
+    /// "; did you mean Feed?" of the steps, else of the inputs and outputs; empty without a guess.
+    std::string guess(const std::string& text, bool of_steps) const;
     /// A bit for the step and for each copy that the compiler made of it.
     std::uint64_t with_copies(unsigned step) const;
 

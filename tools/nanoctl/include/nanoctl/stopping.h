@@ -7,19 +7,19 @@
 
 namespace nplc::nanoctl {
 
-/// What every message says about a stop, safe or hold that was not seen to be done.
+/// The text in every message about a stop, safe or hold that was not confirmed.
 inline constexpr const char* kMayStillRun = "THE MACHINE MAY STILL BE RUNNING";
 
-/// A stop is asked for so long.
+/// Timeout of a stop command.
 inline constexpr base::Milliseconds kLongestStop{10'000};
 
 class NotConfirmed : public mactalk_client::EndedWith<mactalk_client::kNotConfirmed> {
     using EndedWith::EndedWith;
 };
 
-/// Stop, safe or hold: sent before anything is asked, and again until the gateway's status shows that it was
-/// done and that the motor can be told, for 10 s at the most. The status then. Throws NotConfirmed whatever
-/// goes wrong, Interrupted with the same words, and Refused for a hold of a sequence that does not run.
+/// Stop, safe or hold: sent before any request, and repeated until the gateway's status confirms it and the
+/// motor can be commanded, for 10 s at the most. Returns that status. Throws NotConfirmed on any error,
+/// Interrupted with the same text, and Refused for a hold of a sequence that does not run.
 Status stop_machine(GatewayClient& gateway, gw::Command command);
 
 }  // namespace nplc::nanoctl

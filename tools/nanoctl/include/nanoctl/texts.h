@@ -10,7 +10,7 @@
 /// Texts about a gateway, for the user.
 namespace nplc::nanoctl {
 
-/// What is to be added of a held sequence that cannot go on; else empty.
+/// The addition to a message about a held sequence that cannot continue; else empty.
 std::string_view held_remark(const Status& status);
 /// Of a table of so many bytes: "25 terms and the end term".
 std::string terms_text(std::size_t bytes);

@@ -7,14 +7,14 @@
 
 namespace nplc::nanoctl {
 
-/// Why nothing moves, or that it moves.
+/// Diagnoses why nothing moves, or that it moves.
 struct Why {
-    std::vector<causes::Finding> findings{};  ///< what to mend first in front; never empty
-    bool knows_motor = false;      ///< they are those of `macreg why`; else the gateway's own alone
-    bool motor_is_silent = false;  ///< it was asked, and could not be read
+    std::vector<causes::Finding> findings{};  ///< the most urgent cause first; never empty
+    bool knows_motor = false;                 ///< the findings of `macreg why`; else of the gateway alone
+    bool motor_is_silent = false;             ///< the motor was asked, and could not be read
 };
 
-/// What the gateway tells without its motor being asked.
+/// The gateway's own findings, without a request to its motor.
 Why why_of_gateway(GatewayClient& gateway, const Status& status);
 /// The same with the motor's registers, of which some 80 are read through the gateway.
 Why ask_why(GatewayClient& gateway, const Status& status);

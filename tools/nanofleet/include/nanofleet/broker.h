@@ -10,27 +10,27 @@
 
 namespace nplc::nanofleet {
 
-/// A connection to an MQTT broker that comes back when it is lost: what was subscribed to is so again, and
-/// what was published last at each topic goes out once more.
+/// A connection to an MQTT broker that reconnects: subscriptions are renewed, and the last message of each
+/// topic is published again.
 class Broker {
   public:
     using Take = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Throws Failure with exit code 3 if it cannot be had.
+    /// Throws Failure with exit code 3 if there is no connection.
     Broker(const broker::Options& options, Take take);
     ~Broker();
     Broker(const Broker&) = delete;
     Broker& operator=(const Broker&) = delete;
 
     void subscribe(const std::vector<std::string>& topics);
-    /// Retained, quality 1.
+    /// Retained, QoS 1.
     void publish(const std::string& topic, const std::string& payload);
-    /// For so long at the most, while nothing comes.
+    /// Waits this long at the most, while nothing is received.
     void serve(int milliseconds);
-    /// Subscriptions and messages that the broker has not confirmed.
+    /// Subscriptions and messages without a confirmation of the broker.
     std::size_t unconfirmed() const;
     bool is_connected() const;
-    /// It does not let us read something that was subscribed to.
+    /// The broker refused one of the subscriptions.
     bool is_denied() const;
 
   private:

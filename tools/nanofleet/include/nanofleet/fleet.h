@@ -29,7 +29,7 @@ struct FleetReading {
     Fleet fleet{};
     std::string error{};  ///< one line, with the file's line
 };
-/// Files that it names are those beside `folder`, but for absolute ones.
+/// Relative paths in it are relative to `folder`.
 FleetReading read_fleet(std::string_view text, const std::string& folder);
 
 }  // namespace nplc::nanofleet

@@ -5,10 +5,11 @@
 
 #include "orders/keys.h"
 
-/// Keys in a folder: NAME.key is secret, NAME.pub is not. What goes wrong is a UserError.
+/// Keys in a folder: NAME.key is secret, NAME.pub is not. Errors are UserErrors.
 namespace nplc::nanofleet {
 
-/// Makes both files, the secret one for its owner alone (0600). One that is there stays, and is an error.
+/// Creates both files, the secret one readable by its owner alone (0600). An existing one is kept, and is an
+/// error.
 orders::TrustedKey make_key(const std::string& folder, const std::string& name);
 
 struct KeyFiles {
@@ -18,7 +19,7 @@ struct KeyFiles {
 /// By their names.
 std::vector<KeyFiles> list_keys(const std::string& folder);
 
-/// Of a file that nobody but its owner can read.
+/// From a file that only its owner can read.
 orders::SecretKey read_secret_file(const std::string& path);
 /// As it is, the seed's.
 orders::TrustedKey public_of(const orders::SecretKey& secret);

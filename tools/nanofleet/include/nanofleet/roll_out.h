@@ -11,14 +11,14 @@
 
 namespace nplc::nanofleet {
 
-/// How one gateway fares in a roll-out.
+/// The state of one gateway in a roll-out.
 struct Outcome {
     enum class Kind : std::uint8_t {
-        waits,    ///< its turn has not come
-        ordered,  ///< under way
+        waits,    ///< pending in a later stage
+        ordered,  ///< in progress
         done,     ///< it runs the table, confirmed
         failed,
-        silent,  ///< nothing was ordered
+        silent,  ///< no recent report; nothing was ordered
     };
     std::string target;
     Kind kind = Kind::waits;
@@ -29,9 +29,10 @@ struct Outcome {
 };
 std::string_view name_of(Outcome::Kind kind);
 
-/// One table to many gateways: to one, then to a tenth, then to all; it stops when too many fail. Knows no
-/// broker: it is told the time and what was heard, and says what is to be published. Whoever begins the same
-/// again goes on where it ended, since what is ordered stands at the broker.
+/// Rolls one table out to many gateways: to one, then to a tenth, then to all; it stops when too many fail.
+/// Independent of the broker: it gets the time and the received messages, and returns what is to be
+/// published. A roll-out that is started again continues where it ended, since orders are retained at the
+/// broker.
 class RollOut {
   public:
     struct Plan {
@@ -39,10 +40,10 @@ class RollOut {
         std::vector<std::uint8_t> artifact{};
         std::string name{};  ///< of the table
         orders::SecretKey key{};
-        double most_failures = 5;          ///< per cent of those that were ordered
+        double most_failures = 5;          ///< per cent of the gateways that got an order
         std::uint64_t patience = 600'000;  ///< ms from the order to its end
-        std::uint64_t oldest = 300'000;    ///< ms: who has not reported for so long is silent
-        bool again = false;                ///< who failed with this table is ordered once more
+        std::uint64_t oldest = 300'000;    ///< ms: a gateway without a report for so long is silent
+        bool again = false;                ///< gateways that failed with this table get another order
     };
     using Publish = std::function<void(const std::string& topic, const std::string& payload)>;
 
@@ -50,11 +51,11 @@ class RollOut {
 
     /// The pieces of the table.
     void publish_pieces(const Publish& publish) const;
-    /// Often. `now`: ms since 1970.
+    /// To be called often. `now`: ms since 1970.
     void look(const Roster& roster, std::uint64_t now, const Publish& publish);
 
     bool is_over() const { return is_over_; }
-    /// Too many have failed: the rest is not ordered.
+    /// Too many have failed: the remaining ones get no order.
     bool was_stopped() const { return was_stopped_; }
     const std::vector<Outcome>& outcomes() const { return outcomes_; }
     std::size_t count(Outcome::Kind kind) const;

@@ -14,13 +14,13 @@
 
 namespace nplc::nanofleet {
 
-/// What the broker has of one gateway.
+/// The retained messages of one gateway.
 struct Heard {
     std::optional<orders::Report> report{};
     std::string order{};  ///< the text at its topic
 };
 
-/// What the broker has of a fleet.
+/// The retained messages of a fleet.
 class Roster {
   public:
     void take(std::string_view topic, std::string_view payload);
@@ -32,21 +32,21 @@ class Roster {
     std::map<std::string, Heard> heard_;
 };
 
-/// A gateway held against what it is to run.
+/// A gateway compared with its wanted state.
 struct Standing {
     enum class Kind : std::uint8_t {
         as_wanted,
-        under_way,  ///< an order for what is wanted is
+        under_way,  ///< an order for the wanted table is in progress
         differs,
-        silent,  ///< no report, or one that is too old
+        silent,  ///< no report, or a stale one
     };
     Kind kind = Kind::silent;
-    std::string text{};         ///< why
+    std::string text{};         ///< the reason
     std::uint64_t contact = 0;  ///< of its last report, ms since 1970; 0: never
 };
 std::string_view name_of(Standing::Kind kind);
 
-/// `wanted`: SHA-256. A report that is older than `oldest` ms at `now` is silence.
+/// `wanted`: SHA-256. A report older than `oldest` ms at `now` counts as none.
 Standing judge(const Heard& heard, std::string_view wanted, std::uint64_t now, std::uint64_t oldest);
 
 }  // namespace nplc::nanofleet

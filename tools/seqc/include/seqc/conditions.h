@@ -8,10 +8,10 @@
 
 #include "seqc/sources.h"
 
-/// What the conditions of a program's active step are now, as they are written.
+/// The present values of the conditions in a program's active step, as written.
 namespace nplc::seqc {
 
-/// A machine as the conditions of its active step see it.
+/// The state of a machine for evaluating the conditions of its active step.
 struct Seen {
     std::uint8_t inputs = 0;  ///< bit n: IN n
     bool in_position = false;
@@ -25,11 +25,11 @@ struct ConditionNow {
         std::string_view text;
         bool holds = false;
     };
-    std::string file;        ///< the program, or one that it includes
+    std::string file;        ///< the program, or an included file
     std::uint32_t line = 0;  ///< from 1
     std::string_view text;
     bool holds = false;
-    std::vector<Part> parts;  ///< the signals that it names, once each
+    std::vector<Part> parts;  ///< the signals in it, each once
 };
 
 class Conditions {
@@ -39,9 +39,10 @@ class Conditions {
     Conditions(const Conditions&) = delete;
     Conditions& operator=(const Conditions&) = delete;
 
-    /// Those of a step's IF, ELSIF and WHEN in source order, then the program's ON conditions that count for
-    /// it. Not counted: that a condition without ERROR leads nowhere while there is an ERROR, and a time
-    /// behind a condition. An edge never holds; its signal has its level. The texts live as long as this.
+    /// The conditions of a step's IF, ELSIF and WHEN in source order, then the program's ON conditions that
+    /// apply to it. Not considered: that a condition without ERROR has no effect during an ERROR, and a time
+    /// after a condition. An edge is always false; its signal has its level. The texts are valid as long as
+    /// this object.
     std::vector<ConditionNow> of(std::string_view step, const Seen& seen) const;
 
   private:

@@ -9,14 +9,14 @@ namespace nplc::seqc {
 
 enum class Severity : std::uint8_t { error, warning };
 
-/// A stretch of the source text, in bytes.
+/// A range of the source text, in bytes.
 struct Span {
     std::uint32_t offset = 0;
     std::uint32_t length = 0;
     bool operator==(const Span&) const = default;
 };
 
-/// A second place that has to do with a diagnostic.
+/// A second place related to a diagnostic.
 struct Note {
     Span span;
     std::string message;
@@ -24,9 +24,9 @@ struct Note {
 
 struct Diagnostic {
     Severity severity = Severity::error;
-    std::string code;     ///< E0xx or W0xx; `seqc explain` tells about each
-    std::string message;  ///< what is wrong
-    std::string help;     ///< what to write instead; may be empty
+    std::string code;     ///< E0xx or W0xx; see `seqc explain`
+    std::string message;  ///< the error
+    std::string help;     ///< the remedy; may be empty
     Span span;
     std::vector<Note> notes;
 };
@@ -38,7 +38,7 @@ struct Position {
 
 Position position_of(std::string_view source, std::uint32_t offset);
 
-/// The positions of many places in one text, which must stay alive.
+/// Converts many offsets in one text, which must stay valid.
 class Positions {
   public:
     explicit Positions(std::string_view source);
@@ -46,14 +46,14 @@ class Positions {
 
   private:
     std::string_view source_;
-    std::vector<Position> marks_;  ///< of every 256th byte
+    std::vector<Position> marks_;  ///< at every 256th byte
 };
 
-/// Whether a text carries a terminal's colours. They add to it and change nothing else.
+/// Whether a text has terminal colours. They only add escape codes.
 enum class Colour : std::uint8_t { off, on };
 
 /// `file:line:column: error E021: ...`, the source line, a caret, the help and the notes. Of a long line
-/// about 100 characters around the caret. What is no UTF-8 and control characters show as '?'.
+/// about 100 characters around the caret are shown. Invalid UTF-8 and control characters become '?'.
 std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,
                    Colour colour = Colour::off);
 

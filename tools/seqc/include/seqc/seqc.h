@@ -21,16 +21,16 @@ namespace nplc::seqc {
 /// A name of VAR_MOTOR.
 struct MotorName {
     std::string name;
-    std::string reg;                      ///< as in the manual: V1
+    std::string reg;                      ///< manual's name: V1
     std::uint8_t number = 0;              ///< 1..127
-    std::optional<std::int64_t> initial;  ///< what POWER_UP writes, in the register's own steps
+    std::optional<std::int64_t> initial;  ///< the value that POWER_UP writes, raw
     bool operator==(const MotorName&) const = default;
 };
 
 /// A name for several steps: a GROUP, or the steps of a SEQUENCE.
 struct StepGroup {
     std::string name;
-    std::uint64_t steps = 0;  ///< a bit for each, copies included
+    std::uint64_t steps = 0;  ///< bit mask, copies included
     bool operator==(const StepGroup&) const = default;
 };
 
@@ -49,16 +49,17 @@ struct Scale {
     bool operator==(const Scale&) const = default;
 };
 
-/// What the numbers of a table are called in its source.
+/// The names of a table's numbers in its source.
 struct Symbols {
     std::string program;
-    registers::Model motor = registers::Model::mac140;  ///< whose registers they are
-    /// The drive that the gateway translates them for; null: the motor has them itself.
+    registers::Model motor = registers::Model::mac140;  ///< the motor with these registers
+    /// The drive for which the gateway translates the registers; null: the motor has them itself.
     const registers::DriveModel* drive = nullptr;
     std::optional<Scale> scale;
-    std::array<std::string, 63> steps;     ///< by step number; empty where the table has no such step
-    std::array<std::string, 63> made_for;  ///< why the compiler made the step; empty: the program has it
-    /// Of which step it is a copy; a step's name means its copies too.
+    std::array<std::string, 63> steps;  ///< by step number; empty if the table has no such step
+    std::array<std::string, 63>
+        made_for;  ///< why the compiler generated the step; empty: it is in the program
+    /// The original of a copied step; a step's name includes its copies.
     std::array<std::optional<std::uint8_t>, 63> copy_of;
     std::vector<StepGroup> groups;
     std::vector<NamedTime> times;
@@ -69,7 +70,7 @@ struct Symbols {
     bool operator==(const Symbols&) const = default;
 };
 
-/// A bit for the step and for each copy of it, by number.
+/// Bit mask of the step and its copies.
 inline std::uint64_t with_copies(const Symbols& symbols, std::uint8_t step) {
     std::uint64_t bits = std::uint64_t{1} << step;
     for (std::size_t i = 0; i < symbols.copy_of.size(); ++i) {
@@ -78,72 +79,76 @@ inline std::uint64_t with_copies(const Symbols& symbols, std::uint8_t step) {
     return bits;
 }
 
-/// Where a step comes from, and what its OUT without WHEN switches on.
+/// Source of a step, and the outputs of its OUT without WHEN.
 struct StepOrigin {
     std::uint8_t number = 0;
-    Span span;  ///< of its name; length 0 for a POWER_UP that the compiler adds
+    Span span;  ///< of its name; length 0 for a POWER_UP added by the compiler
     std::uint8_t outputs = 0;
 };
 
-/// A check of `seqc verify` that is switched off in a step.
+/// A check of `seqc verify` that a step disables.
 struct Allowance {
     std::uint8_t step = 0;
     std::string code;  ///< V006
     std::string reason;
 };
 
-/// Where a term of the table comes from, in table order, the end term included.
+/// Source of each term in table order, end term included.
 struct TermOrigin {
-    Span span;  ///< length 0 for what the compiler adds by itself
+    Span span;  ///< length 0 for terms added by the compiler
 };
 
-/// A constant that was rounded to what the register can hold.
+/// A constant that was rounded to the register's resolution.
 struct Rounding {
     Span span;
     std::string text;  ///< "V1 := 1500 rpm is 3146 (1500.13 rpm, +0.009 %)"
-    double lost = 0;   ///< what was written minus what the register gets, in its own steps
+    double lost =
+        0;  ///< what was written minus what a place or a distance adds up to, in the register's steps
     double per_unit = 1;
     std::string unit = {};
     bool is_negative = false;
     bool is_made_good = false;  ///< a value of another register counts on the rounded one
+    bool makes_good = false;    ///< it counts on another one itself
 };
 
 struct Compilation {
-    std::vector<std::uint8_t> table;      ///< whole terms up to the end term; empty when there are errors
+    std::vector<std::uint8_t> table;      ///< whole terms up to the end term; empty on errors
     std::vector<Diagnostic> diagnostics;  ///< in source order, 100 at the most
     Symbols symbols;
     std::vector<TermOrigin> origins;
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
-    std::vector<Span> properties;  ///< PROPERTY Name: ... ; in source order, what it names not looked up
+    std::vector<Span> properties;  ///< PROPERTY Name: ... ; in source order, names in it not resolved
     std::vector<Allowance> allowances;
     Written written;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
 };
 
-/// Compiles the text of one program. Takes any bytes; never throws on bad input.
+/// Compiles the text of one program. Accepts any bytes; never throws on bad input.
 Compilation compile(std::string_view source);
-/// The same with the files that it includes.
+/// The same with included files.
 Compilation compile(const Sources& sources);
 
-/// All diagnostics as the user sees them, whether there are more, and their number. Empty if there are none.
+/// All diagnostics as shown to the user, with their number and whether there are more. Empty if there are
+/// none.
 std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
                        Colour colour = Colour::off);
 std::string render_all(const Compilation& compilation, const Sources& sources, Colour colour = Colour::off);
 
-/// Every term with its bytes, what it does and its source line, then the rounded constants, room and time.
+/// Every term with its bytes, its effect and its source line, then the rounded constants, memory use and
+/// time.
 std::string listing(const Compilation& compilation, const Sources& sources);
 std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name);
 
 struct Disassembly {
-    std::string text;                ///< a program of TERM lines; compiling it gives the table's bytes again
-    std::size_t trailing_bytes = 0;  ///< after the end term, left out
-    std::string error;               ///< why there is no text; empty when there is
+    std::string text;                ///< a program of TERM lines; compiling it reproduces the table's bytes
+    std::size_t trailing_bytes = 0;  ///< after the end term, ignored
+    std::string error;               ///< why there is no text; empty on success
 };
 
-/// Takes a raw table: terms of 8 bytes up to the first whose STATE is 63. With symbols the comments name
-/// steps, signals and registers as the program did.
+/// Reads a raw table: terms of 8 bytes up to the first whose STATE is 63. With symbols the comments use the
+/// program's names of steps, signals and registers.
 Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name,
                         const Symbols* symbols = nullptr);
 

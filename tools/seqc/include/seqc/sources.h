@@ -14,31 +14,32 @@ namespace nplc::seqc {
 
 /// One file of a program.
 struct SourceFile {
-    std::string name;          ///< as messages show it
+    std::string name;          ///< as shown in messages
     std::string identity;      ///< the same for all names of one file
     std::uint32_t offset = 0;  ///< where its text begins in Sources::text()
     std::uint32_t length = 0;
 };
 
-/// A text and where it is from.
+/// A text and its origin.
 struct SourceText {
     std::string name;
     std::string text;
-    std::string error = {};  ///< why there is none
+    std::string error = {};  ///< why there is no text
 };
 
-/// How files that a program includes are found. Nothing in it: INCLUDE is an error.
+/// How included files are read. Empty: INCLUDE is an error.
 struct TextReader {
     std::function<SourceText(const std::string& name)> read;
-    std::function<std::string(const std::string& name)> identity;  ///< a path without links and "..", say
+    std::function<std::string(const std::string& name)>
+        identity;  ///< for example a path without links and ".."
 };
 
-/// The text of a program and those of the files that it includes, one behind the other, each once: so a Span
-/// is a place in any of them.
+/// The text of a program and of its included files, concatenated, each once: a Span is a place in any of
+/// them.
 class Sources {
   public:
     explicit Sources(SourceText program, const TextReader& reader = {});
-    /// The same, but the text of one of the included files stands first, for questions about that.
+    /// The same with the text of one of the included files first, for the analysis of that file.
     Sources(SourceText first, SourceText program, const TextReader& reader);
 
     const std::string& text() const { return text_; }
@@ -49,18 +50,18 @@ class Sources {
     }
     const SourceFile& file_at(std::uint32_t offset) const;
     bool is_one_file() const { return files_.size() == 1; }
-    /// Of the file that stands first: whether the program includes it, or is it.
+    /// Whether the program includes the first file, or is it.
     bool has_first() const { return has_first_; }
 
-    /// What an INCLUDE, by the place of its text, puts there.
+    /// The text inserted by an INCLUDE, by its offset.
     struct Inclusion {
-        std::optional<std::size_t> file;   ///< in files(); nothing: it stands elsewhere already, or `failed`
-        std::optional<std::size_t> meant;  ///< the file, wherever it stands
+        std::optional<std::size_t> file;   ///< in files(); empty: already included elsewhere, or `failed`
+        std::optional<std::size_t> meant;  ///< the file, wherever it is included
         bool failed = false;
     };
     const Inclusion* inclusion_at(std::uint32_t offset) const;
     const std::map<std::uint32_t, Inclusion>& inclusions() const { return inclusions_; }
-    /// Files that cannot be included.
+    /// Errors of included files.
     const std::vector<Diagnostic>& problems() const { return problems_; }
 
   private:
@@ -74,23 +75,23 @@ class Sources {
     std::vector<Diagnostic> problems_;
 };
 
-/// A program in a file, its text given, with what it includes; read from disk.
+/// A program file with its text given, and its included files read from disk.
 Sources read_sources(std::string name, std::string text);
-/// Reads files, and tells them apart by their paths.
+/// Reads files and identifies them by their paths.
 TextReader file_reader();
 
-/// A place as it is shown.
+/// A place as shown to the user.
 struct ShownPlace {
     const SourceFile* file = nullptr;
     Position at;
 };
 
-/// The places of many spans; the sources must stay alive.
+/// Converts many spans; the sources must stay valid.
 class Places {
   public:
     explicit Places(const Sources& sources);
     ShownPlace of(std::uint32_t offset) const;
-    /// "12", in an included file "wiring.seqi:12".
+    /// "12", or for an included file "wiring.seqi:12".
     std::string line_text(std::uint32_t offset) const;
 
   private:
@@ -98,7 +99,7 @@ class Places {
     std::vector<Positions> positions_;
 };
 
-/// As render() of one file.
+/// As render() for one file.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, Colour colour = Colour::off);
 
 }  // namespace nplc::seqc

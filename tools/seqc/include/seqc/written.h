@@ -10,23 +10,23 @@
 
 namespace nplc::seqc {
 
-/// Where in a program's source stands what its table does. Cases are those of `semantics/truth.h`.
+/// Source positions of a table's effects. Cases are those of `semantics/truth.h`.
 struct Written {
     using Cases = std::bitset<1024>;
 
     struct Branch {
-        Cases when;                             ///< what earlier branches take left out
-        Span condition;                         ///< length 0: the program wrote none
-        std::vector<Span> statements;           ///< without NEXT, in the order of the program
-        std::optional<std::uint8_t> next;       ///< as the program says
-        std::optional<std::uint8_t> by_helper;  ///< the step that the compiler made on the way there
+        Cases when;                             ///< without the cases taken by earlier branches
+        Span condition;                         ///< length 0: no condition in the program
+        std::vector<Span> statements;           ///< without NEXT, in program order
+        std::optional<std::uint8_t> next;       ///< as written in the program
+        std::optional<std::uint8_t> by_helper;  ///< the step that the compiler inserted on the way there
     };
     struct Output {
         std::uint8_t outputs = 0;  ///< bits 3..0
         Cases when;
         Span condition;
     };
-    /// Of the SEQUENCE that a step stands in, as it was called.
+    /// An argument of the SEQUENCE call that a step belongs to.
     struct Argument {
         std::string parameter;
         std::string text;
@@ -34,7 +34,7 @@ struct Written {
     struct Step {
         std::uint8_t number = 0;
         bool is_helper = false;
-        std::vector<Branch> branches;  ///< in the order in which they are judged
+        std::vector<Branch> branches;  ///< in the order of evaluation
         std::vector<Span> entry;       ///< in step 0 the values of VAR_MOTOR: `Home AT P1 := 0 mm`
         std::vector<Output> outputs;   ///< those with a condition
         std::vector<Argument> arguments = {};

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// What is looked for in every table without a word from the user.
+/// The properties that are checked in every table without being asked for.
 namespace nplc::verify {
 
 enum class Severity : std::uint8_t { fault, advice };
@@ -15,13 +15,13 @@ struct Check {
     std::string_view code;  ///< V004
     Severity severity;
     std::string_view name;  ///< of its result: Acknowledged
-    std::string_view text;  ///< what holds if nothing is found
+    std::string_view text;  ///< the statement that holds if nothing is found
 };
 
 /// All of them, sorted by code.
 std::span<const Check> checks();
 
-/// A check switched off in a step, by who wrote the program.
+/// A check that the program's author switched off in a step.
 struct Allowance {
     std::string code;
     std::uint8_t step = 0;

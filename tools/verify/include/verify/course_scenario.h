@@ -12,7 +12,7 @@ namespace nplc::verify {
 struct ScenarioOptions {
     std::vector<std::string> plant{};  ///< lines about the motor that come first
     /// Inputs that change in the very scan that leaves a step change after it, else before. A course does not
-    /// say which; with a real motor one of the two may lead elsewhere.
+    /// determine which; with a real motor one of the two may lead to other steps.
     bool changes_late = false;
 };
 

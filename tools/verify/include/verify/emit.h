@@ -7,8 +7,8 @@
 
 #include "verify/property.h"
 
-/// A table and its properties as the question of a foreign checker, under `any`. Written from 001 §6.1 alone:
-/// nothing here is shared with the explorer, so that the two can be held against each other.
+/// A table and its properties as input of an external checker, under `any`. Written from 001 §6.1 alone and
+/// sharing nothing with the explorer, so that the two can be compared.
 namespace nplc::verify {
 
 struct Emission {

@@ -10,12 +10,12 @@
 #include "sequencer/table.h"
 #include "verify/property.h"
 
-/// A table worked out for exploring: in each step, what a scan does under each set of images.
+/// A table prepared for exploration: for each step, the effect of a scan for each set of images.
 namespace nplc::verify {
 
 enum class Assume : std::uint8_t {
     any,     ///< inputs, INPOS, ERROR and the time between scans are free
-    driver,  ///< what the gateway and a real motor can do
+    driver,  ///< what the gateway and a real motor can produce
 };
 
 /// Of a scan that sends, in milliseconds from its beginning: when the next one can begin, and when at the
@@ -30,8 +30,8 @@ struct Delay {
 /// How long orders keep the motor's line, until the next scan may begin.
 using OrderTime = std::function<Delay(std::span<const sequencer::MotorOrder>)>;
 
-/// A preset of the timer or of the counter that stands for any of a range, as of a set-point. No other term
-/// presets `value`.
+/// A preset of the timer or of the counter that represents each value of a range, such as of a set-point. No
+/// other term presets `value`.
 struct PresetRange {
     std::uint16_t value = 0;
     std::uint16_t least = 0;
@@ -43,7 +43,7 @@ struct PresetRanges {
     std::vector<PresetRange> counter;  ///< each `value` above all that the counter can be
 };
 
-/// What all images of a set amount to in one step, with timer and counter zero or not.
+/// The common effect of all images of a set in one step, with timer and counter zero or not.
 struct Group {
     std::uint32_t number = 0;  ///< among all of the machine
     sequencer::Pending pending;
@@ -69,16 +69,16 @@ class Machine {
             PresetRanges ranges = {});
 
     Assume assume() const { return assume_; }
-    /// The times that a preset can mean.
+    /// The times that a preset can represent.
     PresetRange times_of(std::uint16_t preset) const {
         const PresetRange* const range = range_of(preset, ranges_.timer);
         return range != nullptr ? *range : PresetRange{preset, preset, preset};
     }
     const PresetRanges& ranges() const { return ranges_; }
     bool has_counter_ranges() const { return !ranges_.counter.empty(); }
-    /// The counts that a counter can mean; nullptr if it is a count.
+    /// The counts that a counter value can represent; nullptr if it is a plain count.
     const PresetRange* counts_of(std::uint16_t counter) const { return range_of(counter, ranges_.counter); }
-    /// Some scan of the step counts down: a counter's range is told apart into its counts there.
+    /// Some scan of the step counts down: there a counter's range is split into its counts.
     bool counts_down_in(std::uint8_t step) const { return ((steps_that_count_ >> step) & 1U) != 0; }
     const ImageSet& permitted() const { return permitted_; }
     bool tells_motion() const { return tells_motion_; }

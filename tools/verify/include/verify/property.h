@@ -11,7 +11,7 @@
 
 #include "sequencer/state.h"
 
-/// What a property says, in the words of a machine builder, and whether a scan fits a condition.
+/// Properties in a machine builder's terms, and whether a scan fulfils a condition.
 namespace nplc::verify {
 
 /// Several steps under one name.
@@ -25,12 +25,12 @@ struct NamedTime {
     std::uint32_t milliseconds = 0;
 };
 
-/// What the numbers of a table are called. Steps without a name have an empty one.
+/// Names for the numbers of a table. Steps without a name have an empty one.
 struct Names {
     std::array<std::string, 63> steps;
     std::array<std::string, 6> inputs;
     std::array<std::string, 4> outputs;
-    /// Of which step it is a copy: `step = Name` means its copies too.
+    /// The step of which it is a copy: `step = Name` includes the copies.
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
     std::vector<StepGroup> groups = {};
     std::vector<NamedTime> times = {};
@@ -45,13 +45,13 @@ using ImageSet = std::bitset<256>;
 /// Those that have a bit of HW_INP on.
 const ImageSet& images_with_bit(std::size_t bit);
 
-/// What a condition sees of a finished scan beside its image.
+/// What a condition depends on besides the image of a finished scan.
 struct View {
     std::uint8_t step = 0;
     std::uint8_t outputs = 0;
     bool timer_zero = true;
     bool counter_zero = true;
-    bool moving = false;  ///< an order to move was given, and no end of it was seen
+    bool moving = false;  ///< a move was commanded, and no end of it was detected
     bool operator==(const View&) const = default;
 };
 
@@ -74,7 +74,7 @@ struct Condition {
     std::vector<Condition> operands;
 };
 
-/// The images with which a scan that ends in `view` fits.
+/// The images with which a scan that ends in `view` fulfils the condition.
 ImageSet images_where(const Condition& condition, const View& view);
 bool holds(const Condition& condition, std::uint8_t image, const View& view);
 /// Bits of HW_INP that the condition names.
@@ -110,19 +110,19 @@ struct Property {
     bool is_implied = false;  ///< a WHENEVER without a time: its left side is `condition`'s first operand
 };
 
-/// What may be taken for granted.
+/// An assumption.
 struct Assumption {
     std::string text;
     Condition never{};            ///< of inputs, INPOS and ERROR alone; false if it is about something else
     std::uint8_t input = 0;       ///< 0..5, keeps its level
-    std::uint32_t stable_ms = 0;  ///< for so long; 0 if it is about something else
+    std::uint32_t stable_ms = 0;  ///< minimum duration; 0 if it is no such assumption
     std::uint32_t move_ms = 0;    ///< a move to a place ends within; 0 if it is about something else
 };
 
 struct PropertyReading {
     std::vector<Property> properties;
     std::vector<Assumption> assumptions;
-    std::string error;       ///< what is wrong, and what to write; empty if nothing is
+    std::string error;       ///< the error and its correction; empty if there is none
     std::size_t line = 0;    ///< of the error, from 1
     std::size_t column = 0;  ///< in characters
 };

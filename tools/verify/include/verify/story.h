@@ -5,13 +5,13 @@
 #include "verify/course.h"
 #include "verify/verify.h"
 
-/// A course told, and written down to be played scan by scan.
+/// A course as text, and as files that can be executed scan by scan.
 namespace nplc::verify {
 
 std::string input_name(const Names& names, unsigned input);
 std::string output_name(const Names& names, unsigned output);
 std::string step_name(const Names& names, std::uint8_t step);
-/// Those that are on; - for none.
+/// The inputs that are on; - for none.
 std::string outputs_text(std::uint8_t outputs, const Names& names);
 
 /// With names and units where `names` has them: "POSITION(Near)", "Near := 52 mm"; else "14h", "49=0".

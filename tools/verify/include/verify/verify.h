@@ -22,12 +22,12 @@ struct Result {
     std::string text{};                  ///< the property, or what was checked
     Verdict verdict = Verdict::undecided;
     Severity severity = Severity::fault;
-    std::string reason{};                 ///< why it is broken or undecided
-    std::string conflict{};               ///< undecided: why the last course that was tried cannot be
-    bool vacuous = false;                 ///< proved, of nothing
-    std::string allowed{};                ///< a finding of a check that was switched off in its step: why
-    bool is_late = false;                 ///< the course ends after its last scan, when a time has passed
-    std::optional<Course> course{};       ///< the shortest way to break it, or to reach what IS REACHABLE
+    std::string reason{};    ///< why it is broken or undecided
+    std::string conflict{};  ///< undecided: why the last course that was tried is impossible
+    bool vacuous = false;    ///< proved vacuously: its condition never occurs
+    std::string allowed{};   ///< for a finding of a check that was switched off in its step: the reason
+    bool is_late = false;    ///< the course ends some time after its last scan, at a deadline
+    std::optional<Course> course{};       ///< the shortest counterexample, or course to what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
 };
 
@@ -38,10 +38,10 @@ struct Options {
     std::size_t most_states = 2'000'000;
     std::vector<Allowance> allowances;
     std::vector<Assumption> assumptions;
-    PresetRanges ranges;  ///< what is proved holds for each value of them
+    PresetRanges ranges;  ///< proofs hold for each value of them
     /// Motor registers whose range has 0 in it: V1..V8, V_SOLL.
     std::vector<std::uint8_t> may_be_zero;
-    bool checks = true;  ///< those that every table gets; else properties alone
+    bool checks = true;  ///< run the built-in checks; else properties alone
 };
 
 struct Report {
@@ -53,7 +53,7 @@ struct Report {
     std::vector<Assumption> assumptions;
 };
 
-/// Whether no inputs are left that the assumptions allow, so that everything would be proved.
+/// Whether the assumptions contradict each other, so that everything would be proved.
 bool contradict(const std::vector<Assumption>& assumptions);
 
 Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,

@@ -5,22 +5,22 @@
 #include "hal_mcu/cortex_m/start.h"
 #include "update/boot.h"
 
-/// What starts first on a board whose firmware can be renewed, and what its firmware knows of that.
+/// The boot loader of a board with firmware update, and what its firmware shares with it.
 namespace nplc::bare_metal {
 
-/// A loader's; all of it begun, the outputs at their safe values.
+/// Parts of a loader; all are initialized, and the outputs are at their safe values.
 struct LoaderParts {
     update::Loader choice;
-    /// Whose handlers serve exceptions from now on: a vector table's address.
+    /// Activates a vector table by its address.
     void (*use_vectors)(std::uint32_t vectors);
-    /// The chip's, for an image on trial that may hang before it has begun its own.
+    /// Starts the chip's watchdog, for an image on trial that may hang before it has started its own.
     void (*begin_watchdog)();
 };
 
 /// Starts the image of a slot; sleeps if there is none.
 [[noreturn]] void load(const LoaderParts& parts);
 
-/// A vector table of the core whose exceptions all lead to `handler`.
+/// A core vector table whose exceptions all go to `handler`.
 constexpr hal_mcu::cortex_m::VectorsOfCore vectors_to(std::uint32_t* stack,
                                                       hal_mcu::cortex_m::Handler handler) {
     return {.stack = stack,
@@ -38,7 +38,7 @@ constexpr hal_mcu::cortex_m::VectorsOfCore vectors_to(std::uint32_t* stack,
             .systick = handler};
 }
 
-/// The firmware's: the slot that it runs from. Its linker script names link_image_begin.
+/// For the firmware: the slot that it runs from. Its linker script defines link_image_begin.
 unsigned running_slot(const update::Layout& slots);
 
 }  // namespace nplc::bare_metal

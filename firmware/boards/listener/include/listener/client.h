@@ -15,24 +15,24 @@
 
 namespace nplc::boards {
 
-/// A client's message, decoded.
+/// A decoded message of a client.
 struct Frame {
     protocol::mactalk::Request message{};
     Purpose purpose{};
     bool needs_seat = false;
-    base::Instant since{};             ///< it was sent then or later
-    std::vector<std::uint8_t> data{};  ///< of a write
+    base::Instant since{};             ///< the message was sent at this time or later
+    std::vector<std::uint8_t> data{};  ///< data of a write
 };
 
-/// How much a client may send: more is left where it is, and who is held up so floods.
+/// Rate limit of a client: excess data are not read, and a client that reaches the limit counts as flooding.
 class Allowance {
   public:
     static constexpr std::size_t kAtOnce = 16'384;  ///< bytes
-    static constexpr std::size_t kLeast = 1024;     ///< worth a look
+    static constexpr std::size_t kLeast = 1024;     ///< smallest amount worth a read
     static constexpr base::Microseconds kPerByte{16};
     static constexpr base::Microseconds kRemembered{2'000'000};
 
-    /// How many bytes may be read now.
+    /// Number of bytes that may be read now.
     std::size_t left(base::Instant now) const {
         const std::int64_t back = std::max<std::int64_t>(0, (paid_until_ - now).count()) / kPerByte.count();
         return back > static_cast<std::int64_t>(kAtOnce - kLeast) ? 0
@@ -49,27 +49,28 @@ class Allowance {
     std::optional<base::Instant> flooded_at_{};
 };
 
-/// Who is connected, as a listener knows him.
+/// State of a connected client.
 struct Client {
-    static constexpr std::size_t kMuchUnsent = 1024;  ///< bytes that it has left unread: it asks no more
+    static constexpr std::size_t kMuchUnsent =
+        1024;  ///< unread answer bytes beyond which it may not ask any more
     static constexpr std::size_t kMostUnsent = 4096;
 
     std::uint64_t id = 0;
-    faces::Sitter sitter{};  ///< among the axis's clients
+    faces::Sitter sitter{};  ///< as an operator, with its number among the axis's clients
     base::Instant came{};
     protocol::mactalk::RequestDecoder decoder{};
     Allowance allowance{};
-    std::deque<Frame> frames{};                   ///< that wait
-    base::Instant drained{};                      ///< nothing was left to be read then
-    bool has_more = false;                        ///< something was left the last time
-    std::uint64_t heard = 0;                      ///< rises with every message of any client; 0: none yet
+    std::deque<Frame> frames{};                   ///< pending messages
+    base::Instant drained{};                      ///< time when all received data had been read
+    bool has_more = false;                        ///< data were left unread the last time
+    std::uint64_t heard = 0;                      ///< order of the last message over all clients; 0: none yet
     std::size_t before_first = 0;                 ///< bytes before its first message
-    bool has_password = false;                    ///< it has given it
-    bool has_left = false;                        ///< it sends no more
-    std::optional<base::Instant> stopped{};       ///< its last stop was taken then
-    std::optional<std::uint32_t> result{};        ///< what RESULT reads for it
-    std::vector<std::uint8_t> unsent{};           ///< answers that its socket has not taken
-    std::optional<base::Instant> unsent_since{};  ///< it takes nothing
+    bool has_password = false;                    ///< the client has given the password
+    bool has_left = false;                        ///< the client has closed its sending side
+    std::optional<base::Instant> stopped{};       ///< time of its last stop
+    std::optional<std::uint32_t> result{};        ///< RESULT for this client
+    std::vector<std::uint8_t> unsent{};           ///< answers not yet accepted by its socket
+    std::optional<base::Instant> unsent_since{};  ///< since when its socket has accepted nothing
 };
 
 }  // namespace nplc::boards

@@ -10,18 +10,19 @@
 
 namespace nplc::boards {
 
-/// Carries between the sockets of a user's port, its listener and a controller without a line of its own.
+/// Transfers messages and answers between the sockets of a user port, its listener and a controller without a
+/// line of its own.
 class Exchange {
   public:
     Exchange(hal_linux::Connections& connections, Listener& listener)
         : connections_(connections), listener_(listener) {}
 
-    /// Before the controller's poll: what has come, and the next message. `now`: of the clients and of the
-    /// controller; a simulated one lives in another time.
+    /// To be called before the controller's poll: reads received data and submits the next message. `now`:
+    /// time of the clients; `controllers_now`: time of the controller, which differs in a simulation.
     void bring(gateway::Controller& controller, base::Instant now, base::Instant controllers_now);
-    /// After it: answers.
+    /// To be called after it: sends the answers.
     void take_back(gateway::Controller& controller, base::Instant now, base::Instant controllers_now);
-    /// When bring() is wanted at the latest.
+    /// Latest time of the next bring().
     base::Instant next(base::Instant now) const;
 
   private:
@@ -36,7 +37,7 @@ class Exchange {
     hal_linux::Connections& connections_;
     Listener& listener_;
     protocol::mactalk::Answer expected_{};
-    protocol::mactalk::ReplyDecoder reply_;  ///< of what the motor itself answers
+    protocol::mactalk::ReplyDecoder reply_;  ///< decoder of the motor's answers
     bool is_whole_ = false;
     std::optional<base::Instant> last_sample_;
 };

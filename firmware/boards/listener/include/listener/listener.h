@@ -12,38 +12,43 @@
 
 namespace nplc::boards {
 
-/// A user's port for many clients, without its sockets: it is told who came, what he sent and that he left,
-/// says who is to go, and hands the clients' messages to the gateway one at a time. Each client hears the
-/// answers to its own. Clients take turns; a read that its client has not waited for is dropped.
+/// A user port for many clients, without its sockets: it is told about connections, received data and
+/// disconnections, decides which client is removed, and passes the clients' messages to the gateway one at a
+/// time. Each client gets the answers to its own messages. Clients take turns; a pending read is dropped when
+/// its client sends another message.
 ///
-/// A newcomer is always taken. Where there is no place left one goes: first who floods or leaves its answers
-/// unread, then who has said nothing for long, then whose last message is the longest ago; a newcomer has
-/// time for its first message, and who waits for the answer of a stop stays.
+/// A new client is always accepted. If there is no place left one client is removed: first one that floods or
+/// leaves its answers unread, then one that has sent no message for long, then the one whose last message is
+/// the oldest. A new client has kFirstMessage for its first message, and a client that waits for the answer
+/// to a stop stays.
 ///
-/// A stop, safe or hold waits for nobody: it ends another client's turn, and what others sent before it and
-/// would operate the gateway or the motor is refused. Each is carried out once for all that ask for it at the
-/// same time, whether they wait for its answer or have gone. Such a message is refused too if its client has
-/// left, or if more than kLongestUnread may have passed since it was sent, or if another client operates. The
-/// client of a refused message hears nothing, and RESULT reads why for it until its next write.
+/// A stop, safe or hold does not wait: it ends another client's turn, and earlier messages of other clients
+/// that would operate the gateway or the motor are refused. Each is carried out once for all clients that
+/// request it at the same time, even if they have disconnected. An operating message is also refused if its
+/// client has disconnected, if it may have waited longer than kLongestUnread, or if another client operates.
+/// The client of a refused message gets no answer, and its RESULT reads the reason until its next write.
 ///
-/// With a password a client that has not given it may read and stop, and what needs no seat.
+/// With a password, a client that has not given it may read, stop, and write what needs no operator.
 class Listener {
   public:
-    using Id = std::uint64_t;  ///< of a client; not 0, and never that of another one again
+    using Id = std::uint64_t;  ///< of a client; not 0, never reused
     static constexpr std::size_t kMostClients = 256;
-    static constexpr base::Microseconds kLongestAnswer{1'500'000};  ///< while others wait for their turn
+    static constexpr base::Microseconds kLongestAnswer{
+        1'500'000};  ///< time limit while others wait for their turn
     static constexpr base::Microseconds kLongestUnread{1'000'000};
-    /// What came between two looks is as old as the time between them.
+    /// Data received between two looks are as old as the time between them.
     static constexpr base::Microseconds kBetweenLooks{250'000};
-    static constexpr base::Microseconds kFirstMessage{2'000'000};  ///< a newcomer's time for it
-    /// Who floods is looked at so often.
+    static constexpr base::Microseconds kFirstMessage{
+        2'000'000};  ///< time limit for a new client's first message
+    /// Interval at which a flooding client is read.
     static constexpr base::Microseconds kAllowed{10'000};
 
     struct Options {
-        std::string name;                   ///< of the port
-        faces::Seat* operators = nullptr;   ///< who may operate, of all clients of the axis; null: everybody
-        std::string password = {};          ///< empty: none is asked for
-        std::size_t places = kMostClients;  ///< for so many clients at once
+        std::string name;  ///< name of the port
+        faces::Seat* operators =
+            nullptr;  ///< decides which client of the axis is the operator; null: all clients may operate
+        std::string password = {};          ///< empty: no password required
+        std::size_t places = kMostClients;  ///< limit of clients
     };
     using Addresses = boards::Addresses;
 
@@ -52,57 +57,57 @@ class Listener {
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
 
-    // What happens at the sockets, whose clients are given in any order; looked() comes after all of them.
+    // Socket side. Clients are given in any order; looked() comes after all of them.
 
     void set_addresses(const Addresses& addresses) { addresses_ = addresses; }
-    /// `who`: all but its number.
+    /// `who`: everything but its number.
     void connected(Id client, faces::Sitter who, base::Instant now);
-    /// How much of what a client sent may be read now.
+    /// Number of bytes that may be read from a client now.
     std::size_t readable(Id client, base::Instant now) const;
-    /// `is_all`: nothing more is there to be read.
+    /// `is_all`: no more data are pending.
     void received(Id client, std::span<const std::uint8_t> bytes, bool is_all, base::Instant now);
-    /// A character was damaged on its way.
+    /// A received character was damaged.
     void damaged(Id client);
-    /// It sends no more; what it sent has been received.
+    /// The client has closed its sending side; all it sent has been received.
     void left(Id client);
-    /// It hears no more either.
+    /// The client has closed its receiving side too.
     void gone(Id client, base::Instant now);
     void looked(base::Instant now);
-    /// One goes, as for a newcomer.
+    /// Removes one client, as for a new one.
     void make_room(base::Instant now);
-    /// When that is wanted at the latest if nothing happens there.
+    /// Latest time of the next look if no socket event comes.
     base::Instant next_look(base::Instant now) const;
 
-    /// Answers that a client's socket has not taken, until sent() says how much of them it has.
+    /// Answers not yet accepted by a client's socket; sent() removes the bytes that it has accepted.
     std::span<const std::uint8_t> unsent(Id client) const;
     void sent(Id client, std::size_t bytes, base::Instant now);
-    /// Those who have some.
+    /// The clients with such answers.
     std::vector<Id> with_unsent() const;
-    /// Whose connections are to be closed. They are clients no more.
+    /// Clients whose connections must be closed. They are no longer clients.
     std::vector<Id> take_dropped() { return std::exchange(dropped_, {}); }
 
-    // Towards the gateway.
+    // Gateway side.
 
-    /// The message that it is to take now, in the place of the one that is under way; null: none.
+    /// The next message for the gateway, which replaces the one in progress; null: none.
     const Frame* next(base::Instant now);
     bool awaits_answer() const { return asked_.has_value(); }
-    /// To the message of the last next().
+    /// The answer to the message of the last next().
     void answer(std::span<const std::uint8_t> bytes, base::Instant now);
-    /// It has ended, `result` is what RESULT reads.
+    /// That message has ended; `result` is RESULT.
     void ended(std::uint32_t result);
-    /// The gateway has been started anew, and its RESULT reads 0.
+    /// The gateway has restarted, and its RESULT reads 0.
     void restarted();
 
-    /// Given by clients since the start.
+    /// Wrong passwords since the start.
     unsigned wrong_passwords() const { return wrong_passwords_; }
     std::size_t clients() const { return clients_.size(); }
 
   private:
     struct Asked {
         Frame frame;
-        std::vector<Id> askers;  ///< one; of a stop several
-        bool again = false;      ///< it took the place of another one of the same client
-        base::Instant until{};   ///< others wait no longer
+        std::vector<Id> askers;  ///< one client; for a stop one or several
+        bool again = false;      ///< it replaced an earlier message of the same client
+        base::Instant until{};   ///< other clients wait no longer than this
     };
     using Clients = std::map<Id, Client>;
 
@@ -135,9 +140,9 @@ class Listener {
     Addresses addresses_{};
     Clients clients_;
     std::vector<Id> dropped_;
-    std::vector<Asked> stops_;  ///< that wait; one of each
+    std::vector<Asked> stops_;  ///< pending stops, one of each kind
     std::optional<Asked> asked_;
-    Id last_ = 0;  ///< whose turn it was
+    Id last_ = 0;  ///< the client that had the last turn
     std::optional<base::Instant> looked_;
     std::uint64_t messages_ = 0;
     unsigned wrong_passwords_ = 0;

@@ -21,15 +21,15 @@ namespace nplc::deployment {
 class Disk;
 struct Record;
 
-/// What becomes of the orders for one axis: looked at, their tables gathered, stored, made active, watched,
-/// and given up for the former one. Knows no socket. Each state is on the disk before what follows from it is
-/// begun, so that a restart at any place takes up what was under way. In one thread, that of its face.
+/// Handles the orders for one axis: checks them, collects their tables, stores, activates and monitors these,
+/// and rolls back to the former table. Does no network I/O. Each state is on the disk before its consequences
+/// begin, so that a restart at any point continues it. Used by one thread, that of its face.
 class Deployment {
   public:
-    /// One line for the user; an error, or news.
+    /// A one-line message for the operator; an error or news.
     using Tell = std::function<void(bool is_error, const std::string&)>;
 
-    /// `target`: GROUP/NODE/AXIS. Reads what an earlier process has left.
+    /// `target`: GROUP/NODE/AXIS. Reads the state left by an earlier process.
     Deployment(const Settings& settings, std::string target, faces::AxisModel& axis, faces::Bell& bell,
                Tell tell);
     ~Deployment();
@@ -39,30 +39,30 @@ class Deployment {
     const std::string& target() const { return target_; }
     void take_order(std::string_view text, const Moment& moment);
     void take_piece(const orders::Hash& hash, std::size_t number, std::span<const std::uint8_t> piece);
-    /// Whose pieces are awaited; null: nobody's.
+    /// Hash of the artifact whose pieces are awaited; null: none.
     const orders::Hash* wanted() const;
 
-    /// Often, whether orders come or not.
+    /// To be called regularly, with or without orders.
     void tick(const Moment& moment);
-    /// Nothing: the axis has told nothing yet, or its table is just becoming another one. Without the time.
+    /// Empty while the axis has reported nothing yet, or its table is being changed. Without the time.
     std::optional<orders::Report> report() const;
 
   private:
     enum class Stage : std::uint8_t {
-        starting,  ///< until the axis says what runs
+        starting,  ///< until the axis reports its table
         idle,
         saving,
         fetching,
         waiting,
-        seating,   ///< the seat has been asked for
-        stopping,  ///< the sequence has been told to stop
+        seating,   ///< the operator's seat has been requested
+        stopping,  ///< the sequence has been stopped
         storing,
         activating,
-        running,  ///< the sequence has been told to run
+        running,  ///< the sequence has been started
         trial,
         failing,
     };
-    /// A table on its way to be the active one.
+    /// A table that is being stored and activated.
     struct Job {
         std::vector<std::uint8_t> bytes{};
         orders::Hash hash{};
@@ -71,14 +71,14 @@ class Deployment {
     struct Trial {
         base::Microseconds ran{};
         base::Microseconds healthy{};  ///< since the last ERROR
-        std::string error{};           ///< the last one
+        std::string error{};           ///< the last error
         bool was_in_step = false;
         base::Instant watched{};                      ///< last
-        std::optional<std::uint32_t> first_reason{};  ///< SAFE_REASON that is none of the trial's
+        std::optional<std::uint32_t> first_reason{};  ///< SAFE_REASON from before the trial
     };
-    /// Under way to the disk, and what is to be done then.
+    /// A write in progress, and the action after it.
     struct Saving {
-        std::unique_ptr<Record> record{};  ///< null: nothing is
+        std::unique_ptr<Record> record{};  ///< null: none in progress
         std::vector<File> files{};
         std::function<void()> then{};
         std::string error{};
@@ -137,28 +137,29 @@ class Deployment {
     std::unique_ptr<faces::CommandDesk::Client> client_;
     std::unique_ptr<Disk> disk_;
     std::unique_ptr<Record> record_;
-    std::string damage_;  ///< of what was stored: no order is taken; empty: none
+    std::string damage_;  ///< damage of the stored state: no order is accepted; empty: none
     Moment moment_{};
     faces::AxisImage image_{};
     std::shared_ptr<const faces::AxisTable> table_;
-    std::string active_;  ///< SHA-256 of it; empty: there is none
+    std::string active_;  ///< its SHA-256; empty: no table
     bool knows_table_ = false;
-    bool has_news_ = false;  ///< of the table, that are not on the disk yet
+    bool has_news_ = false;  ///< change of the table that is not on the disk yet
 
     Stage stage_ = Stage::starting;
     Stage after_run_ = Stage::idle;
-    std::optional<orders::Order> order_;  ///< the last one that was taken
+    std::optional<orders::Order> order_;  ///< the last accepted one
     std::string order_hash_;              ///< SHA-256 of its text
-    std::string next_order_;              ///< comes when what is under way has ended
+    std::string next_order_;              ///< handled when the present one has ended
     std::unique_ptr<orders::Pieces> pieces_;
     Job job_;
     std::optional<faces::Upload> upload_;
-    std::uint32_t command_ = 0;  ///< under way; 0: none
-    /// AxisImage::stops once it was told to stop, if it ran before; it runs again if nobody else stops it.
+    std::uint32_t command_ = 0;  ///< command in progress; 0: none
+    /// AxisImage::stops when the sequence was stopped, if it ran before; it is restarted if no other client
+    /// stops it.
     std::optional<std::uint32_t> ran_{};
     base::Instant not_before_{};
-    base::Instant since_{};  ///< of the stage
-    std::string waits_;      ///< for what; empty: for nothing
+    base::Instant since_{};  ///< start of the stage
+    std::string waits_;      ///< reason for waiting; empty: not waiting
     Trial trial_;
     Saving saving_;
     Refusals refusals_;

@@ -6,7 +6,7 @@
 
 namespace nplc::deployment {
 
-/// What is to be written.
+/// A file to be written.
 struct File {
     std::string path;
     std::vector<std::uint8_t> bytes;

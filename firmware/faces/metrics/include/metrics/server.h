@@ -8,9 +8,8 @@
 
 namespace nplc::metrics {
 
-/// `GET /metrics` over HTTP/1.1, in a thread of its own, for Prometheus and what speaks its text format.
-/// Nothing can be written there. While somebody scrapes, once a minute or more often, the motors' values are
-/// kept fresh.
+/// `GET /metrics` over HTTP/1.1, in its own thread, for Prometheus and compatible programs. Read-only. While
+/// it is scraped at least once a minute, the motors' values are kept up to date.
 class Server {
   public:
     struct Options {
@@ -21,7 +20,7 @@ class Server {
         std::unique_ptr<Server> server;
         std::string error;  ///< one line
     };
-    /// Before the axes' loops begin; they must outlive it.
+    /// To be called before the axes' loops begin; the axes must outlive it.
     static Opened open(const Options& options, const faces::Axes& axes);
     ~Server();
     Server(const Server&) = delete;
@@ -30,7 +29,7 @@ class Server {
     /// "http://127.0.0.1:9464/metrics", with the port that the system chose.
     const std::string& url() const { return url_; }
 
-    /// Why this is no place to listen; empty: it is one.
+    /// Why the address is invalid; empty if it is valid.
     static std::string mistake_in(const std::string& listen);
 
   private:

@@ -14,20 +14,20 @@ namespace nplc::modbus {
 
 using namespace protocol::modbus;
 
-/// A row of the map that is a value of the axis.
+/// A row of the map with a value of the axis.
 struct ValueRow {
     Space space;
     std::uint16_t address;
-    std::uint8_t words;     ///< 1 or 2; of a bit 1
-    std::string_view name;  ///< the point's
-    double steps = 1;       ///< of a register, for one unit
+    std::uint8_t words;     ///< 1 or 2; 1 for a bit
+    std::string_view name;  ///< name of the point
+    double steps = 1;       ///< register steps per unit
     bool is_signed = false;
     const faces::Point* point = nullptr;
 };
 
 /// In ascending order within each space.
 std::span<const ValueRow> value_rows();
-/// That begins there, or whose second word it is; null: none.
+/// The row that contains the address; null: none.
 const ValueRow* find_row(Space space, std::uint16_t address);
 
 using namespace registers::modbus;
@@ -45,7 +45,7 @@ enum SetPointInput : std::uint16_t {
     kSetPointTexts = 300,    ///< kTextWords each
     kRecipeNames = 820,      ///< kRecipeWords each
 };
-/// Places within the text of a set-point.
+/// Offsets within the text of a set-point.
 enum SetPointText : std::uint16_t {
     kTextOfLowest = 0,
     kTextOfHighest = 2,
@@ -56,7 +56,7 @@ enum SetPointText : std::uint16_t {
     kTextOfName = 16,
     kTextWords = 32,
 };
-/// Input registers of why nothing moves; read in a block of their own, as they may be unknown.
+/// Input registers with the cause of a standstill; to be read in a separate block, as they may be unknown.
 enum WhyInput : std::uint16_t {
     kWhy = 900,  ///< the point `why`
     kWhySeverity = 901,
@@ -66,9 +66,9 @@ enum WhyInput : std::uint16_t {
 inline constexpr std::uint16_t kRecipeWords = 8;
 inline constexpr std::uint16_t kRecipes = 8;
 
-/// The whole map with a line of names: kind,address,words,name,unit,access.
+/// The whole map with a header line: kind,address,words,name,unit,access.
 std::string map_as_csv(const faces::Scaling& scaling, registers::Model model);
-/// The same as a table for documents, with the meaning of each; of set-points and recipes the first one.
+/// The same as a table for the documentation, with descriptions; of set-points and recipes the first one.
 std::string map_as_markdown();
 
 }  // namespace nplc::modbus

@@ -10,16 +10,16 @@
 
 namespace nplc::modbus {
 
-/// Modbus RTU (Modbus over Serial Line V1.02), in a thread of its own: axis n of the process is slave unit +
+/// Modbus RTU (Modbus over Serial Line V1.02), in its own thread: axis n of the process is slave unit +
 /// n
-/// - 1 among others on the line. A broadcast stops all axes if it is a stop, and is nothing else.
+/// - 1, beside other slaves on the line. A broadcast of a stop stops all axes; other broadcasts are ignored.
 class RtuServer {
   public:
     struct Options {
         std::string port;  ///< /dev/ttyUSB0, or pty:PATH, which becomes a link to a terminal
         std::uint32_t baud = 19'200;
         hal_linux::Parity parity =
-            hal_linux::Parity::even;  ///< without one two stop bits, as the standard asks
+            hal_linux::Parity::even;  ///< without parity: two stop bits, as required by the standard
         std::optional<hal_linux::Rs485> rs485{};
         std::uint8_t unit = 1;  ///< of the first axis
         Settings settings{};
@@ -28,7 +28,7 @@ class RtuServer {
         std::unique_ptr<RtuServer> server;
         std::string error;  ///< one line
     };
-    /// From the axes' loop, before it begins or later; they must outlive it.
+    /// To be called by the axes' loop, before it begins or later; the axes must outlive it.
     static Opened open(const Options& options, const faces::Axes& axes);
     ~RtuServer();
     RtuServer(const RtuServer&) = delete;

@@ -15,14 +15,14 @@ namespace nplc::modbus {
 enum class Silence : std::uint8_t { nothing, stop, safe };
 
 struct Settings {
-    bool low_word_first = false;  ///< of what takes two registers
+    bool low_word_first = false;  ///< word order of two-register values
     bool writes = true;           ///< false: only stop, safe and hold
-    /// When the master that operates says nothing for `silence`, or has left.
+    /// Reaction when the operating master is silent for `silence`, or has disconnected.
     Silence on_silence = Silence::nothing;
     base::Milliseconds silence{5'000};
 };
 
-/// An axis as a slave: what its clients share. Belongs to the server's thread.
+/// An axis as a slave: the state shared by its clients. Used by the server's thread.
 class Unit {
   public:
     Unit(faces::AxisModel& axis, const Settings& common) : model(axis), settings(common) {}
@@ -30,8 +30,8 @@ class Unit {
     faces::AxisModel& model;
     const Settings& settings;
 
-    // The handshake. Until command_number has been written 0 since the start nothing is carried out: a master
-    // that writes its block in cycles does not start a machine by the gateway's restart.
+    // Handshake. Until command_number was written as 0 since the start, nothing is carried out: a master that
+    // writes its block cyclically must not start a machine after a restart of the gateway.
     bool is_armed = false;
     std::uint16_t command = 0;
     std::uint16_t number = 0;
@@ -41,24 +41,25 @@ class Unit {
     std::uint16_t recipe = 0;  ///< for kLoadRecipe
 
     std::uint8_t coils = 0;           ///< as written last
-    std::uint8_t coils_were_off = 0;  ///< written 0 since the start
+    std::uint8_t coils_were_off = 0;  ///< written as 0 since the start
     std::uint32_t acknowledged = 0;   ///< of event_count
 
-    std::uint64_t master = 0;  ///< the session that operated last; 0: none
-    base::Instant heard{};     ///< from it
+    std::uint64_t master = 0;  ///< the last operating session; 0: none
+    base::Instant heard{};     ///< last request from it
 
-    /// What on_silence asks for now; once.
+    /// The command for on_silence that is due; once.
     std::optional<faces::Command> due(base::Instant now);
 };
 
-/// When a request is looked at, and what is older than it.
+/// Time of a request, and the limit of its age.
 struct Moment {
     base::Instant now{};
-    base::Instant arrived{};  ///< it came later than that; a command that may be older than 1 s is too_late
+    base::Instant
+        arrived{};  ///< it arrived later than this; a command that may be older than 1 s is too_late
 };
 
-/// One client. A request is answered at once, or when the axis's loop has carried it out; only then comes its
-/// next one.
+/// One client. A request is answered at once, or after the axis's loop has carried it out; only then the next
+/// one is handled.
 class Session {
   public:
     Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell);
@@ -66,7 +67,7 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// `unit` counts from 1; 0 and 255 are the only one. Nothing: take() has the answer later.
+    /// `unit` counts from 1; 0 and 255 are allowed for a single axis. Empty: take() returns the answer later.
     std::optional<Answer> serve(std::uint8_t number, std::span<const std::uint8_t> pdu, const Moment& moment);
     std::uint64_t number() const { return number_; }
     bool is_waiting() const { return waiting_.has_value(); }
@@ -78,23 +79,23 @@ class Session {
         std::size_t index = 0;
         bool is_handshake = false;
         bool takes_set_points = false;
-        bool is_whole = false;  ///< all of its commands were taken
+        bool is_whole = false;  ///< all of its commands were accepted
         std::vector<std::uint32_t> ids{};
         std::vector<faces::Completion> ended{};
     };
-    /// What a request sees.
+    /// The data for answering a request.
     struct Look {
         Unit& unit;
         std::size_t index;
         faces::AxisImage image;
         std::shared_ptr<const faces::SetPointBook> book;
-        std::shared_ptr<const faces::Findings> why;  ///< null: not asked for, or not known
+        std::shared_ptr<const faces::Findings> why;  ///< null: not requested or unknown
         base::Instant now;
         base::Instant arrived;
     };
 
     static SetPointLook set_points_of(const Look& look);
-    /// Nothing is known of the axis.
+    /// The axis's data are stale.
     static bool is_old(const Look& look);
 
     Unit* find(std::uint8_t unit);
@@ -125,7 +126,7 @@ class Session {
     std::vector<std::unique_ptr<faces::CommandDesk::Client>> clients_;  ///< for each unit; null: not yet
     std::vector<StagedSetPoints> staged_;                               ///< for each unit
     std::optional<Waiting> waiting_;
-    std::array<std::uint8_t, kMostPdu> pdu_{};  ///< of the request that is being served
+    std::array<std::uint8_t, kMostPdu> pdu_{};  ///< the request in progress
     std::size_t size_ = 0;
 };
 

@@ -11,13 +11,13 @@
 
 namespace nplc::modbus {
 
-/// Modbus TCP (Modbus Messaging on TCP/IP V1.0b), in a thread of its own. Axis n of a process is unit n,
-/// counted from 1; a single axis answers units 0 and 255 too. One more client than `clients` takes the place
-/// of the one that has been silent for the longest time, never that of the master that operates.
+/// Modbus TCP (Modbus Messaging on TCP/IP V1.0b), in its own thread. Axis n of a process is unit n, counted
+/// from 1; a single axis also answers units 0 and 255. A client beyond `clients` replaces the one that has
+/// been silent the longest, but never the operating master.
 class TcpServer {
   public:
     struct Options {
-        std::string listen;  ///< "tcp:ADDRESS:PORT", ADDRESS as of IPv4 or, in brackets, IPv6
+        std::string listen;  ///< "tcp:ADDRESS:PORT", ADDRESS in IPv4 or, in brackets, IPv6
         std::size_t clients = 32;
         Settings settings{};
     };
@@ -25,13 +25,13 @@ class TcpServer {
         std::unique_ptr<TcpServer> server;
         std::string error;  ///< one line
     };
-    /// Before the axes' loops begin; they must outlive it.
+    /// To be called before the axes' loops begin; the axes must outlive it.
     static Opened open(const Options& options, const faces::Axes& axes);
     ~TcpServer();
     TcpServer(const TcpServer&) = delete;
     TcpServer& operator=(const TcpServer&) = delete;
 
-    /// Where it listens, with the port that the system chose: "tcp:127.0.0.1:1502".
+    /// Its address with the port that the system chose: "tcp:127.0.0.1:1502".
     const std::string& name() const { return name_; }
 
   private:

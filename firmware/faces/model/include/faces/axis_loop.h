@@ -12,34 +12,33 @@
 namespace nplc::faces {
 
 struct LoopSettings {
-    /// Between two reads of the motor for faces, one register each; 0: it is never read.
+    /// Interval of motor reads for faces, one register each; 0: the motor is never read.
     base::Microseconds motor_period{100'000};
-    std::optional<base::Microseconds> seat_silence{};  ///< not given: the force time
+    std::optional<base::Microseconds> seat_silence{};  ///< unset: the force time
     Control control = Control::any;
-    /// Or: input 0..5, on is remote, off is local.
+    /// Input 0..5 that selects: on is remote, off is local.
     std::optional<std::uint8_t> remote_input{};
 };
 
-/// The loop's side of an axis's model: takes images between two scans, reads the motor now and then, carries
-/// out commands by the user's port's rules. Nothing here waits, for a face or for anything else.
+/// The axis loop's side of the model: takes images between two scans, reads the motor periodically, and
+/// carries out commands by the rules of the user port. Nothing here blocks.
 class AxisLoop {
   public:
     AxisLoop(AxisModel& model, const LoopSettings& settings)
         : model_(model), settings_(settings), reader_(settings.motor_period) {}
 
-    /// After every poll of the controller. `now` is its time, `wall` that of the clock that faces read; on a
-    /// board they are the same. `driver`: the controller's motor, where there are drives that tell more of
-    /// themselves than a motor does.
+    /// To be called after every poll of the controller. `now` is its time, `wall` that of the faces' clock;
+    /// on a board they are the same. `driver`: the controller's motor, for drives with additional status.
     void poll(gateway::Controller& controller, base::Instant now, base::Instant wall,
               const motor::AnyDriver* driver = nullptr);
-    /// Only counts what has happened: after every poll of the controller where poll() comes more seldom.
+    /// Only counts events: after every poll of the controller if poll() is called less often.
     void count(const gateway::Controller& controller) { tally_.look(controller.sequence()); }
-    /// There is a new controller; what the old one had under way has ended.
+    /// There is a new controller; operations of the old one have ended.
     void restarted();
-    /// When poll() is wanted at the latest, by the faces' clock, if nobody rings.
+    /// Latest time of the next poll(), by the faces' clock, if the bell does not ring.
     base::Instant next(const gateway::Controller& controller) const;
 
-    /// For the persons' ports, from the loop.
+    /// For the operators' ports, from the loop.
     Seat& seat() { return seat_; }
 
   private:
@@ -80,18 +79,18 @@ class AxisLoop {
     base::Instant now_{};
     base::Instant wall_{};
     static constexpr base::Instant kLongAgo{base::Microseconds(INT64_MIN / 2)};
-    base::Instant surveyed_ = kLongAgo;  ///< the last survey began
-    std::uint32_t surveyed_errors_ = 0;  ///< of the motor, when it began
+    base::Instant surveyed_ = kLongAgo;  ///< start of the last survey
+    std::uint32_t surveyed_errors_ = 0;  ///< the motor's, at its start
     base::Instant moved_{};              ///< the shaft's last motion
-    bool is_restarted_ = true;           ///< the set-points on the shelf are those of another controller
-    bool come_back_ = false;             ///< a lock was not to be had, or there is more to do
+    bool is_restarted_ = true;           ///< the shelf has the set-points of another controller
+    bool come_back_ = false;             ///< a lock was not available, or there is more work
 
-    std::optional<Work> work_;         ///< under way, or ended and not yet told
+    std::optional<Work> work_;         ///< in progress, or ended and not yet reported
     std::optional<Completion> ended_;  ///< of work_
     bool begun_ = false;               ///< of work_
-    bool clears_ = false;              ///< of work_, a reset_error: ERR_STAT has been read
-    std::uint8_t own_write_ = 0;       ///< OwnRegisters::writes_begun of ours
-    std::optional<Work> change_;       ///< of set-points, beside work_; or ended and not yet told
+    bool clears_ = false;              ///< for work_, a reset_error: ERR_STAT has been read
+    std::uint8_t own_write_ = 0;       ///< OwnRegisters::writes_begun of this loop's write
+    std::optional<Work> change_;  ///< a set-point request, parallel to work_; or ended and not yet reported
     std::optional<Completion> change_ended_;
     gateway::SetPoints::Writer change_writer_;
     std::optional<std::uint8_t> writes_seen_;  ///< OwnRegisters::writes_begun
@@ -103,7 +102,7 @@ class AxisLoop {
     static constexpr base::Microseconds kLongestStop{1'000'000};
     base::Ring<CarriedOut, CommandDesk::kMostClients>
         carried_out_;                ///< stops that the motor has not confirmed yet
-    std::optional<Work> told_stop_;  ///< ended, and not yet told
+    std::optional<Work> told_stop_;  ///< ended, and not yet reported
     std::optional<Completion> stop_told_;
     AxisImage image_;
 };

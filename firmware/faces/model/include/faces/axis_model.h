@@ -16,19 +16,19 @@
 
 namespace nplc::faces {
 
-/// What a face gets of an axis: its image, its table, and a desk for commands. For any thread; the axis's
-/// loop (axis_loop.h) has the other side of it.
+/// A face's interface to an axis: its image, its table, and a desk for commands. For any thread; the axis's
+/// loop (axis_loop.h) has the other side.
 ///
-/// A face's thread: make a Bell, watch() with it before the loop begins; then sleep until something of its
-/// own comes or the bell rings. image() tells at once; an image is at most kPeriod old while faces ask, and
-/// asks for a new one when it is older. Before sleeping for one: want(), then bell.arm(), then look once
+/// In a face's thread: create a Bell, watch() with it before the loop begins; then sleep until an event of
+/// its own or the bell. image() returns at once; an image is at most kPeriod old while faces request images,
+/// and an older one triggers a new one. Before sleeping for it: want(), then bell.arm(), then check once
 /// more.
 class AxisModel {
   public:
-    static constexpr base::Milliseconds kPeriod{10};           ///< between two images, while faces ask
-    static constexpr base::Milliseconds kInterest{1'000};      ///< after a face's last question
-    static constexpr base::Milliseconds kWhyInterest{60'000};  ///< after the last question why
-    static constexpr base::Milliseconds kOld{1'000};           ///< an image older than this is old data
+    static constexpr base::Milliseconds kPeriod{10};           ///< image interval while requested
+    static constexpr base::Milliseconds kInterest{1'000};      ///< validity of a face's request
+    static constexpr base::Milliseconds kWhyInterest{60'000};  ///< validity of a request for causes
+    static constexpr base::Milliseconds kOld{1'000};           ///< an older image counts as stale data
     static constexpr std::size_t kMostBells = 8;
 
     explicit AxisModel(std::string name, Scaling scaling = {})
@@ -39,33 +39,33 @@ class AxisModel {
     const std::string& name() const { return name_; }
     const Scaling& scaling() const { return scaling_; }
 
-    /// The last image, and that one is wanted at `now`. number 0: the loop has not begun.
+    /// Returns the last image and requests a new one at `now`. number 0: the loop has not begun.
     AxisImage image(base::Instant now) {
         want(now);
         return board_.get();
     }
-    /// The same with `why`, for which the motor is surveyed now and then while somebody asks. Null findings:
-    /// not known, or not yet.
+    /// The same with the causes of a standstill, for which the motor is surveyed periodically while they are
+    /// requested. Null findings: not known yet.
     AxisImage image_with_why(base::Instant now, std::shared_ptr<const Findings>* findings = nullptr);
     std::uint64_t image_number() const { return board_.number(); }
-    /// Images are wanted for kInterest; wakes the loop if none were before.
+    /// Requests images for kInterest; wakes the loop if there was no request before.
     void want(base::Instant now);
 
     std::shared_ptr<const AxisTable> table() const { return table_.get(); }
-    /// What can be set, how far, and the recipes. An image right after an upload may be of another table:
-    /// SetPointBook::is_of().
+    /// Settable values, their ranges, and the recipes. An image right after an upload may belong to another
+    /// table: SetPointBook::is_of().
     std::shared_ptr<const SetPointBook> set_points() const { return set_points_.get(); }
 
-    /// A client of a face. Null: there are too many.
+    /// Registers a client of a face. Null: too many.
     std::unique_ptr<CommandDesk::Client> join(Side side, std::string name, Bell& bell) {
         return desk_.join(side, std::move(name), bell);
     }
 
-    /// Rings for every new image. Before the loop begins; kMostBells at the most.
+    /// Rings for every new image. To be called before the loop begins; at most kMostBells.
     void watch(Bell& bell);
-    /// From the axis's loop, before the bell goes.
+    /// From the axis's loop, before the bell is destroyed.
     void ignore(const Bell& bell);
-    /// The bell lives until the axis's loop has ended.
+    /// The bell must live until the axis's loop has ended.
     void wake_loop_with(Bell& loop);
 
     // The loop's side.
@@ -78,7 +78,7 @@ class AxisModel {
     bool wants_survey(base::Instant now) const;
     bool is_wanted(base::Instant now) const;
     void strike_bells();
-    /// Before the desk is looked at.
+    /// To be called before the desk is checked.
     void arm_loop();
 
   private:

@@ -11,10 +11,10 @@ namespace nplc::faces {
 struct AxisTable {
     std::uint32_t crc = 0;
     std::vector<std::uint8_t> bytes{};
-    /// As it was uploaded: set-points at their defaults, then what followed the end term.
+    /// As uploaded: set-points at their defaults, then the bytes after the end term.
     std::vector<std::uint8_t> uploaded{};
 
-    /// Was the term true in a scan of this step that saw this key? (FIRED_STEP, FIRED_KEY.)
+    /// Whether the term was true in a scan of this step with this key (FIRED_STEP, FIRED_KEY).
     bool fired(std::size_t term, std::uint8_t step, sequencer::Key key) const;
 };
 

@@ -13,14 +13,14 @@
 
 namespace nplc::faces {
 
-/// Wakes a thread that sleeps; rung at most once for every arm(). `ring` must neither wait nor fail.
+/// Wakes a sleeping thread; rung at most once per arm(). `ring` must neither block nor fail.
 class Bell {
   public:
     explicit Bell(std::function<void()> ring) : ring_(std::move(ring)) {}
     Bell(const Bell&) = delete;
     Bell& operator=(const Bell&) = delete;
 
-    /// Before the last look at what may have come.
+    /// To be called before the last check for events.
     void arm() { armed_.store(true, std::memory_order_seq_cst); }
     void strike() {
         if (armed_.exchange(false, std::memory_order_seq_cst)) ring_();
@@ -31,25 +31,25 @@ class Bell {
     std::atomic<bool> armed_{true};
 };
 
-/// Where the clients of an axis leave commands for its loop, and hear how they ended. Bounded: 64 clients,
-/// 8 commands of each that wait. The loop only ever tries the lock, and comes back if it has not got it.
+/// Where the clients of an axis leave commands for its loop and get the outcomes. Bounded: 64 clients, with 8
+/// pending commands each. The loop only tries the lock, and retries later if it is taken.
 class CommandDesk {
   public:
     static constexpr std::size_t kMostClients = 64;
-    static constexpr std::size_t kMostWaiting = 8;  ///< of one client
+    static constexpr std::size_t kMostWaiting = 8;  ///< per client
 
-    /// One client of a face. When it is destroyed what it has not yet been told is forgotten, its commands
-    /// that still wait are not carried out (stops are), and its seat is free. Used by one thread.
+    /// One client of a face. Its destructor drops unread outcomes and pending commands (except stops) and
+    /// frees its seat. Used by one thread.
     class Client {
       public:
         ~Client();
         Client(const Client&) = delete;
         Client& operator=(const Client&) = delete;
 
-        /// The command's id; nothing: too many of this client wait already (busy). A stop is always taken;
-        /// what this client gave before it and was not begun ends with too_late.
+        /// The command's id; empty: too many pending commands of this client (busy). A stop is always
+        /// accepted; earlier commands of this client that have not begun end as too_late.
         std::optional<std::uint32_t> submit(const Command& command);
-        /// The next command that has ended.
+        /// The next outcome.
         std::optional<Completion> take();
         std::uint64_t number() const { return number_; }
 
@@ -63,12 +63,12 @@ class CommandDesk {
         std::uint64_t number_;
     };
 
-    /// Of a face. `loop` wakes the axis's loop, `bell` the face when a command has ended. Null: there are
-    /// kMostClients already.
+    /// For a face. `loop` wakes the axis's loop, `bell` the face when a command has ended. Null: kMostClients
+    /// are registered.
     std::unique_ptr<Client> join(Side side, std::string name, Bell& bell);
     void wake_loop_with(Bell& loop) { loop_ = &loop; }
 
-    // For the axis's loop. Each says "come back" (false) if the lock is not to be had at once.
+    // For the axis's loop. Each returns false ("retry") if the lock is taken.
 
     struct Work {
         std::size_t place = 0;
@@ -76,14 +76,14 @@ class CommandDesk {
         Command command{};
         std::uint32_t id = 0;
     };
-    /// Stops of all clients first, stop and safe before hold; then others by turns. `stops_only`: while
-    /// something is under way.
+    /// Stops of all clients first, stop and safe before hold; then other commands in turns. `stops_only`:
+    /// while a command is in progress.
     bool take(std::optional<Work>& work, bool stops_only);
-    /// Ends a command taken. False: come back.
+    /// Ends a command in progress. False: retry.
     bool end(const Work& work, const Completion& completion);
-    /// A stop was taken: what others gave before it and that operates ends with too_late.
+    /// After a stop: earlier operating commands of other clients end as too_late.
     bool drop_all_that_operates();
-    /// Clients that have left since the last time.
+    /// Clients that have left since the last call.
     bool take_leavers(base::Ring<std::uint64_t, kMostClients>& leavers);
 
   private:
@@ -97,7 +97,7 @@ class CommandDesk {
         Bell* bell = nullptr;
         bool has_left = false;
         std::uint32_t last_id = 0;
-        std::size_t open = 0;  ///< submitted, no stops, and not yet taken back
+        std::size_t open = 0;  ///< submitted without stops, outcome not yet taken
         base::Ring<Waiting, kMostWaiting> waiting{};
         base::Ring<Waiting, 3> stops{};
         base::Ring<Completion, kMostWaiting + 4> ended{};
@@ -110,8 +110,8 @@ class CommandDesk {
 
     std::mutex mutex_;
     Bell* loop_ = nullptr;
-    std::size_t last_ = kMostClients - 1;                        ///< whose turn it was
-    std::array<std::unique_ptr<Place>, kMostClients> places_{};  ///< null: nobody was there yet
+    std::size_t last_ = kMostClients - 1;                        ///< the client of the last turn
+    std::array<std::unique_ptr<Place>, kMostClients> places_{};  ///< null: not used yet
 };
 
 }  // namespace nplc::faces

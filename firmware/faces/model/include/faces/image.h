@@ -15,32 +15,32 @@ namespace nplc::faces {
 
 enum class Quality : std::uint8_t {
     good,
-    old,      ///< was good; nothing newer has come within its time
-    unknown,  ///< was never read since the start or the last reset
+    old,      ///< stale: no newer value within its time
+    unknown,  ///< not read since the start or the last reset
 };
 
-/// What is read of every motor. Which register that is depends on the motor: register_of().
+/// Values read from every motor. The register depends on the motor: register_of().
 enum class MotorItem : std::uint8_t {
     position,      ///< P_IST
     velocity,      ///< V_IST
     error_word,    ///< ERR_STAT
     mode,          ///< MODE_REG
-    torque,        ///< VF_OUT: what the regulator asks for
+    torque,        ///< VF_OUT: output of the regulator
     load,          ///< I2T
     load_limit,    ///< I2TLIM
     follow_error,  ///< FLWERR
     target,        ///< P_SOLL
     speed_limit,   ///< V_SOLL
     torque_limit,  ///< T_SOLL
-    temperature,   ///< DEGC, of a MAC800 only
+    temperature,   ///< DEGC, MAC800 only
 };
 inline constexpr std::size_t kMotorItems = 12;
-/// These two come often, the others by turns.
+/// These two are read often, the others in turns.
 constexpr bool is_frequent(MotorItem item) {
     return item == MotorItem::position || item == MotorItem::velocity;
 }
 
-/// A register of the motor as it was last read; its raw value, signed as the register is.
+/// A motor register as last read; raw value with the register's sign.
 struct MotorValue {
     bool is_known = false;
     std::int32_t value = 0;
@@ -53,31 +53,31 @@ struct MotorValue {
 };
 
 /// The axis between two scans: the gateway's registers (firmware/gateway/REGISTERS.md), all of the same
-/// instant, and what was last read of the motor. A plain value.
+/// instant, and the last values read from the motor. A plain value.
 ///
-/// Registers 1..9, 16..42, 48..60, 62..70, 80..88, 128..191 and 200..231 are in it. FIRED (96..127) is not:
-/// with the table's bytes (AxisTable) FIRED_STEP and FIRED_KEY tell which terms were true. FIRED_* are those
-/// of the image's own scan. RESULT is the user's port's.
+/// Contains registers 1..9, 16..42, 48..60, 62..70, 80..88, 128..191 and 200..231. Not FIRED (96..127):
+/// FIRED_STEP and FIRED_KEY with the table's bytes (AxisTable) tell which terms were true. FIRED_* are those
+/// of the image's own scan. RESULT is that of the user port.
 struct AxisImage {
-    std::uint64_t number = 0;    ///< rises with every image; 0: none has been taken
-    base::Instant taken{};       ///< by the clock that faces read
-    std::uint64_t restarts = 0;  ///< of the gateway, since the process began; registers start anew then
+    std::uint64_t number = 0;    ///< increases with every image; 0: none yet
+    base::Instant taken{};       ///< by the faces' clock
+    std::uint64_t restarts = 0;  ///< of the gateway, since the process began; the registers are reset then
     std::array<std::uint32_t, 256> own{};
     std::array<MotorValue, kMotorItems> motor{};
     bool moves = false;                       ///< its position changed between the last two reads
-    std::optional<causes::MidiState> midi{};  ///< of a MIDI drive
+    std::optional<causes::MidiState> midi{};  ///< for a MIDI drive
     std::uint16_t why =
         0;  ///< AxisModel::image_with_why(): the cause's number (causes/codes.h); 0: not known
-    base::Instant motor_contact{};       ///< when the link was last seen to deliver
-    bool had_contact = false;            ///< it has delivered since the process began
-    std::uint64_t holder = 0;            ///< Sitter::number of who has the seat; 0: it is free
-    Side holder_side = Side::person;     ///< where that one stands
+    base::Instant motor_contact{};       ///< last time when the link delivered
+    bool had_contact = false;            ///< the link has delivered since the process began
+    std::uint64_t holder = 0;            ///< Sitter::number of the seat's holder; 0: free
+    Side holder_side = Side::person;     ///< the holder's side
     std::array<char, 40> holder_name{};  ///< ended by 0
-    Control control = Control::any;      ///< from where the axis may be operated
-    /// How often the sequence was to stand still since the process began: stop, safe or hold of whomever, no
-    /// longer enabled, the gateway started anew.
+    Control control = Control::any;      ///< side from which the axis may be operated
+    /// Number of stops of the sequence since the process began: stop, safe or hold by anyone, loss of enable,
+    /// restart of the gateway.
     std::uint32_t stops = 0;
-    std::uint32_t commands_done = 0;     ///< of faces, since the process began
+    std::uint32_t commands_done = 0;     ///< from faces, since the process began
     std::uint32_t commands_refused = 0;  ///< the same
     Tally tally{};
 
@@ -94,9 +94,10 @@ struct AxisImage {
     }
 };
 
-/// Whose registers the axis's motor has; of a drive of another family those that its driver keeps for it.
+/// The register model of the axis's motor; for a drive of another family that of the registers kept by its
+/// driver.
 registers::Model model_of(const AxisImage& image);
-/// Null: this motor has none.
+/// Null: the motor does not have it.
 const registers::Register* register_of(MotorItem item, registers::Model model);
 
 }  // namespace nplc::faces

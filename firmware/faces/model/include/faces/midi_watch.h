@@ -9,17 +9,17 @@
 
 namespace nplc::faces {
 
-/// A MIDI drive as its driver has it, for who asks why it does not move.
+/// State of a MIDI drive from its driver, for the causes of a standstill.
 class MidiWatch {
   public:
-    /// Nothing: the driver is another one.
+    /// Empty: another kind of driver.
     std::optional<causes::MidiState> look(const motor::AnyDriver& driver, base::Instant wall);
 
   private:
     base::Instant looked_{base::Microseconds(INT64_MIN / 2)};
     std::int32_t place_ = 0;  ///< increments
-    base::Instant moved_{};   ///< it was elsewhere until then
-    base::Instant idle_{};    ///< it was last seen not to be busy
+    base::Instant moved_{};   ///< last change of position
+    base::Instant idle_{};    ///< last time it was not busy
 };
 
 }  // namespace nplc::faces

@@ -10,36 +10,36 @@
 
 namespace nplc::faces {
 
-/// One register of the motor at a time, between the sequence's orders: what a face asks, or else the values
-/// of AxisImage by turns. Where the user's port wants the motor, it gives way; a read is then begun anew.
+/// Accesses one motor register at a time, between the sequence's orders: for a face's request, else the
+/// values of AxisImage in turns. Yields to the user port; an interrupted read is repeated.
 class MotorReader {
   public:
     explicit MotorReader(base::Microseconds period) : period_(period) {}
 
     enum class State : std::uint8_t { under_way, done, failed };
 
-    /// An access for a face.
+    /// Begins an access for a face.
     void begin(const motor::Access& access);
     State poll(gateway::Controller& controller, base::Instant now);
     std::uint32_t value() const { return value_; }
-    /// Nobody waits for it any more.
+    /// The face no longer waits for it.
     void drop(gateway::Controller& controller);
-    /// Of the access: when poll() is wanted at the latest.
+    /// Latest time of the next poll() for the access.
     base::Instant next(const gateway::Controller& controller, base::Instant now) const;
 
-    /// Goes on with the image's values, if one is due. Not while a face's access is under way.
+    /// Reads the image's values when due. Not during a face's access.
     void look_around(gateway::Controller& controller, AxisImage& image, base::Instant now,
                      base::Instant wall);
-    /// Reads what causes are judged by, between the image's values.
+    /// Reads the values for the analysis of causes, between the image's values.
     void begin_survey(registers::Model model);
     bool surveys() const { return !to_survey_.empty(); }
-    /// The one that has ended.
+    /// Returns the completed survey.
     std::optional<Survey> take_survey();
     bool is_for_face() const { return wanted_ && !item_ && surveyed_ == nullptr; }
     bool is_idle() const { return !wanted_; }
-    /// The motor's driver is a new one.
+    /// The motor has a new driver.
     void forget();
-    /// When look_around() has something new to do, on the faces' clock.
+    /// When look_around() has work to do, by the faces' clock.
     base::Instant due() const {
         if (period_.count() == 0) return base::kNever;
         return surveys() ? base::Instant{} : due_;
@@ -61,9 +61,9 @@ class MotorReader {
     std::uint32_t value_ = 0;
     base::Instant ended_{};
 
-    std::optional<MotorItem> item_;                      ///< what wanted_ is for
-    std::vector<const registers::Register*> to_survey_;  ///< what is left, the next one last
-    const registers::Register* surveyed_ = nullptr;      ///< what wanted_ is for
+    std::optional<MotorItem> item_;                      ///< for wanted_
+    std::vector<const registers::Register*> to_survey_;  ///< remaining registers, the next one last
+    const registers::Register* surveyed_ = nullptr;      ///< for wanted_
     std::size_t before_left_ = 0;                        ///< of to_survey_, for Survey::before
     Survey survey_;
     bool survey_ended_ = false;

@@ -6,8 +6,8 @@
 
 namespace nplc::faces {
 
-/// Where an axis's loop puts what seldom changes, and faces take it, whole, for as long as they hold it. The
-/// loop only tries the lock.
+/// Passes rarely changing data from an axis's loop to the faces, which keep them as long as they hold the
+/// pointer. The loop only tries the lock.
 template <class T>
 class Shelf {
   public:
@@ -17,16 +17,16 @@ class Shelf {
         const std::lock_guard lock(mutex_);
         return shown_;
     }
-    /// False: come back. From the loop only.
+    /// False: retry. From the loop only.
     bool put(std::shared_ptr<const T> next) {
-        std::shared_ptr<const T> before;  // ends outside of the lock
+        std::shared_ptr<const T> before;  // destroyed outside of the lock
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) return false;
         last_ = next;
         before = std::exchange(shown_, std::move(next));
         return true;
     }
-    /// What put() was given last. For the loop only.
+    /// The value of the last put(). From the loop only.
     const T& last() const { return *last_; }
 
   private:

@@ -8,9 +8,9 @@
 
 namespace nplc::faces {
 
-/// What has happened since the process began, counted. A plain value.
+/// Event counters since the process began. A plain value.
 struct Tally {
-    /// Upper bounds of scan times; one more class has the longer ones.
+    /// Upper bounds of scan times; a further class counts the longer ones.
     static constexpr std::array<std::uint32_t, 13> kBoundsMicroseconds{
         100, 250, 500, 1'000, 2'000, 3'000, 5'000, 10'000, 20'000, 50'000, 100'000, 500'000, 1'000'000};
     static constexpr std::size_t kEvents = 64;
@@ -20,12 +20,12 @@ struct Tally {
     std::array<std::uint32_t, kEvents> events{};  ///< by the code of the log (REGISTERS.md, Reasons)
 };
 
-/// Entries of a gateway's log, each once, in their order; what was overwritten meanwhile is left out.
+/// The new entries of a gateway's log, each once, in order; overwritten ones are skipped.
 class NewEvents {
   public:
     template <class Each>
     void look(const gateway::EventLog& log, const Each& each) {
-        if (log.count() < told_) told_ = log.count();  // it was cleared
+        if (log.count() < told_) told_ = log.count();  // the log was cleared
         if (log.count() - told_ > gateway::EventLog::kSlots)
             told_ = log.count() - static_cast<std::uint32_t>(gateway::EventLog::kSlots);
         for (; told_ != log.count(); ++told_) each(log.slot(told_ % gateway::EventLog::kSlots));
@@ -37,11 +37,10 @@ class NewEvents {
     std::uint32_t told_ = 0;
 };
 
-/// Keeps a tally of a gateway. Scans that have no time, being the first or begun in time after a sleep, are
-/// left out.
+/// Counts a gateway's events. Untimed scans (the first one, or after a sleep) are not counted.
 class TallyKeeper {
   public:
-    /// After every poll of the gateway.
+    /// To be called after every poll of the gateway.
     void look(const gateway::Gateway& sequence) {
         if (sequence.scans() != scans_) {
             scans_ = sequence.scans();

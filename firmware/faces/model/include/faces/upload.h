@@ -11,8 +11,8 @@
 
 namespace nplc::faces {
 
-/// A table on its way into an axis's store, a command at a time (REGISTERS.md, Upload); after that, if asked
-/// for, the sequence is stopped, the table made active and run.
+/// An upload of a table into an axis's store, one command at a time (REGISTERS.md, Upload); then, if
+/// requested, the sequence is stopped, the table activated and run.
 class Upload {
   public:
     struct Afterwards {
@@ -21,14 +21,14 @@ class Upload {
     };
     Upload(std::vector<std::uint8_t> table, Afterwards afterwards, std::uint64_t request);
 
-    /// The next command, if one is due. `image` is the axis's newest.
+    /// The next command, if one is due. `image`: the axis's latest.
     std::optional<Command> next(const AxisImage& image, base::Instant now);
     void ended(const Completion& completion, base::Instant now);
 
     bool is_over() const { return stage_ == Stage::over; }
     Result result() const { return result_; }
     std::uint16_t detail() const { return detail_; }
-    /// What was being done when it failed: "storing the table".
+    /// The stage at a failure: "storing the table".
     std::string_view stage_in_words() const;
     std::size_t sent() const { return sent_; }
     std::size_t size() const { return table_.size(); }
@@ -61,7 +61,7 @@ class Upload {
     std::uint64_t request_;
     Stage stage_ = Stage::begin;
     Stage failed_in_ = Stage::begin;
-    bool is_waiting_ = false;  ///< for a command's end
+    bool is_waiting_ = false;  ///< for the outcome of a command
     std::size_t sent_ = 0;
     Result result_ = Result::done;
     std::uint16_t detail_ = 0;

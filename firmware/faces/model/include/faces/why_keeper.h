@@ -10,21 +10,21 @@
 
 namespace nplc::faces {
 
-/// The motor's registers that causes are judged by, read one after the other.
+/// The motor registers for the analysis of causes, read one after the other.
 struct Survey {
-    base::Instant taken{};  ///< the last of them, by the clock that faces read
+    base::Instant taken{};  ///< time of the last read, by the faces' clock
     registers::Model model = registers::Model::mac140;
     causes::Snapshot before{};
     causes::Snapshot now{};
 };
 
-/// Why nothing moves: as `macreg why` finds it, what to mend first in front.
+/// The causes of a standstill, as found by `macreg why`, in the order of remedy.
 using Findings = std::vector<causes::Finding>;
 
-/// Judges the axis for all faces, once for each survey and state of the gateway. For any thread.
+/// Analyses the axis for all faces, once per survey and state of the gateway. For any thread.
 class WhyKeeper {
   public:
-    /// A survey is good for so long.
+    /// Validity of a survey.
     static constexpr base::Milliseconds kGood{30'000};
 
     /// Null: not known (yet). Never empty.
@@ -43,7 +43,7 @@ class WhyKeeper {
 
     std::mutex mutex_;
     Key key_;
-    std::shared_ptr<const Survey> survey_;  ///< that key_ names
+    std::shared_ptr<const Survey> survey_;  ///< the one of key_
     std::shared_ptr<const Findings> findings_;
 };
 

@@ -9,16 +9,16 @@
 
 namespace nplc::mqtt {
 
-/// An MQTT client that shows axes as Sparkplug B's edge node, in a thread of its own. It connects again for
-/// ever, and says through Options::tell what came of it.
+/// An MQTT client that publishes axes as a Sparkplug B edge node, in its own thread. Reconnects forever, and
+/// reports its state through Options::tell.
 class Client {
   public:
     struct Opened {
         std::unique_ptr<Client> client;
         std::string error;  ///< one line
     };
-    /// A secret or certificate that cannot be read is an error here; a broker that is away is none. From the
-    /// axes' loop, before it begins or later; they must outlive it.
+    /// An unreadable secret or certificate is an error here; an unreachable broker is not. To be called by
+    /// the axes' loop, before it begins or later; the axes must outlive it.
     static Opened open(const Options& options, const faces::Axes& axes);
     ~Client();
     Client(const Client&) = delete;

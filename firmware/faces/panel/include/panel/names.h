@@ -5,7 +5,7 @@
 
 namespace nplc::panel {
 
-/// `text` is a symbol file as `seqc build` writes it, and for the table of this CRC-32.
+/// Whether `text` is a symbol file as written by `seqc build`, for the table with this CRC-32.
 bool is_for_table(std::string_view text, std::uint32_t crc);
 
 }  // namespace nplc::panel

@@ -13,15 +13,15 @@
 
 namespace nplc::panel {
 
-/// Where the names of a table are kept. Called on the panel's thread.
+/// Storage for the names of tables. Called on the panel's thread.
 class SymbolShelf {
   public:
     struct Found {
-        std::string file{};  ///< what the table was made of, or its own name; for people
-        std::string text{};  ///< as `seqc build` writes F.sym; empty: none
+        std::string file{};  ///< the table's source, or its own name; for display
+        std::string text{};  ///< content of F.sym as written by `seqc build`; empty: none
     };
     virtual Found find(std::size_t axis, std::uint32_t crc) = 0;
-    /// Names that came with an upload. Empty, or one line why they are not kept.
+    /// Stores the names of an upload. Empty, or a one-line error.
     virtual std::string keep(std::size_t axis, std::uint32_t crc, std::string_view text) = 0;
 
   protected:
@@ -30,26 +30,26 @@ class SymbolShelf {
 
 struct PanelAxis {
     faces::AxisModel* model = nullptr;
-    std::string motor{};  ///< its model's name, MAC140 or MAC34-1; empty: as the settings tell
+    std::string motor{};  ///< its model's name, MAC140 or MAC34-1; empty: from the settings
 };
 
 struct PanelOptions {
     WebOptions web{};
-    std::string program;   ///< name and version, for people
-    std::string token;     ///< who has it may operate; empty: one is made and printed at the start
-    std::string password;  ///< must be given before anything is shown; empty: nobody needs one
+    std::string program;   ///< name and version, for display
+    std::string token;     ///< allows its owner to operate; empty: generated and printed at the start
+    std::string password;  ///< required before anything is shown; empty: none required
 };
 
-/// The panel: a page, and the wire behind it (PROTOCOL.md), on a thread of its own. The axes' loops feel
-/// nothing of it but the images that they take for it.
+/// The panel: a page and its protocol (PROTOCOL.md), on its own thread. The axes' loops only provide images
+/// for it.
 class Panel {
   public:
     struct Opened {
         std::unique_ptr<Panel> panel;
-        std::string error;  ///< one line, if there is no panel
+        std::string error;  ///< one line, if it cannot be started
     };
-    /// Listens; nobody is answered before start(). Beyond this machine it is refused without a password and
-    /// a token. Before the axes' loops begin. `symbols` and `simulation` may be null.
+    /// Listens; answers only after start(). Beyond this machine a password and a token are required. To be
+    /// called before the axes' loops begin. `symbols` and `simulation` may be null.
     static Opened open(const PanelOptions& options, const std::vector<PanelAxis>& axes, SymbolShelf* symbols,
                        Simulation* simulation);
     ~Panel();
@@ -67,7 +67,7 @@ class Panel {
     std::unique_ptr<Parts> parts_;
 };
 
-/// 24 letters and digits from the system's source of chance.
+/// 24 letters and digits from the system's random number generator.
 std::string make_token();
 
 }  // namespace nplc::panel

@@ -6,27 +6,26 @@
 
 namespace nplc::panel {
 
-/// What a simulated machine lets a person do beside its gateway. For any thread; nothing waits for the
-/// simulation.
+/// User actions on a simulated machine besides its gateway. For any thread; never waits for the simulation.
 class Simulation {
   public:
     struct State {
         std::uint64_t milliseconds = 0;  ///< of virtual time
         bool is_paused = false;
-        double speed = 1;            ///< virtual seconds in a real one
+        double speed = 1;            ///< virtual seconds per real second
         std::uint32_t recorded = 0;  ///< lines
         bool operator==(const State&) const = default;
     };
     virtual State state() const = 0;
-    /// An action of a scenario, `Start := 1` or `motor power off`, at the next moment, and into the record.
-    /// Empty, or one line what is wrong.
+    /// Carries out a scenario action, `Start := 1` or `motor power off`, as soon as possible, and records it.
+    /// Empty, or a one-line error.
     virtual std::string act(std::string_view action) = 0;
     virtual void pause(bool on) = 0;
     /// 0.01 to 100.
     virtual void set_speed(double speed) = 0;
-    /// Into the record only: what the gateway was told to do, as an action.
+    /// Records a gateway command as an action, without carrying it out.
     virtual void note(std::string_view action) = 0;
-    /// All that was done, as a scenario that does the same.
+    /// All recorded actions, as a scenario that repeats them.
     virtual std::string record() const = 0;
     virtual void clear_record() = 0;
 

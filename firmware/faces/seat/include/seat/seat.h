@@ -12,30 +12,30 @@
 
 namespace nplc::faces {
 
-/// Where a client stands: at the machine, or at the plant's controls.
+/// A client's side: at the machine, or in the plant's control system.
 enum class Side : std::uint8_t {
     person,  ///< a person's port or a panel
     plant,   ///< a PLC or a SCADA system
 };
 
-/// From which side the axis may be operated.
+/// The sides from which the axis may be operated.
 enum class Control : std::uint8_t { any, local, remote };
 
-/// Who sits: `number` is another one for every client of every face and port of an axis. All clients of one
-/// `user` are one operator; empty: it is one by itself.
+/// A client: `number` is unique over all faces and ports of an axis. All clients of one `user` are one
+/// operator; empty: the client is an operator of its own.
 struct Sitter {
     std::uint64_t number = 0;
     Side side = Side::person;
     std::string name{};
     registers::gateway::OperatorWay way = registers::gateway::OperatorWay::other;
-    std::uint32_t peer = 0;  ///< by that way
+    std::uint32_t peer = 0;  ///< user number or address, depending on the way
     std::string user{};
 };
 
-/// Only one client at a time operates an axis; all may watch, and stop, safe and hold ask nobody. The seat
-/// is taken by the first operating command, or by taking it, and is free again when its client leaves (of a
-/// user's clients the last one that has operated), gives it back, or has not operated for `silence`; another
-/// client may take it over. Belongs to the axis's loop; what others see of it is in AxisImage.
+/// Only one client at a time operates an axis; all may watch, and stop, safe and hold need no seat. The seat
+/// is taken by the first operating command, or explicitly, and is freed when its client leaves (for a user
+/// the last client that has operated), gives it back, or has not operated for `silence`; another client may
+/// take it over. Used by the axis's loop; others see its state in AxisImage.
 class Seat {
   public:
     enum class Verdict : std::uint8_t {
@@ -53,17 +53,17 @@ class Seat {
     explicit Seat(base::Microseconds silence = kSilence) : silence_(silence) {}
     static constexpr base::Microseconds kSilence{10'000'000};
 
-    /// May this client operate now? Granted, it has the seat, for `silence` anew.
+    /// Whether this client may operate now. If granted it has the seat, and `silence` restarts.
     Verdict take(const Sitter& client, base::Instant now);
     /// The same, whoever has it.
     Verdict take_over(const Sitter& client, base::Instant now);
     /// The client has left.
     void leave(std::uint64_t client);
-    /// The client gives the seat up, for all clients of its user. False: it has not got it.
+    /// The client gives the seat back, for all clients of its user. False: it does not have it.
     bool give_back(const Sitter& client);
-    /// For who reports it, since the last call.
+    /// A take-over since the last call, for reporting.
     std::optional<TakeOver> take_news() { return std::exchange(news_, std::nullopt); }
-    /// Frees the seat of who has been silent for too long, or is on the wrong side by now.
+    /// Frees the seat if its holder has been silent for too long, or is now on the wrong side.
     void look(base::Instant now);
 
     void set_silence(base::Microseconds silence) { silence_ = silence; }
@@ -73,10 +73,10 @@ class Seat {
     const Sitter* holder() const { return holder_ ? &*holder_ : nullptr; }
     bool is_holder(const Sitter& client) const { return holder_ && is_same(*holder_, client); }
     bool was_taken_from(const Sitter& client) const { return taken_from_ && is_same(*taken_from_, client); }
-    /// When look() has something to do.
+    /// When look() has work to do.
     base::Instant ends() const { return holder_ ? since_ + silence_ : base::kNever; }
 
-    /// A number that no other client of this process has.
+    /// A number that is unique in this process.
     static std::uint64_t new_number();
 
   private:
@@ -94,7 +94,7 @@ class Seat {
     base::Instant since_{};
 };
 
-/// Of a verdict other than granted: the detail of result seat_taken.
+/// For a verdict other than granted: the detail of result seat_taken.
 constexpr std::uint16_t detail_of(Seat::Verdict verdict) {
     return static_cast<std::uint16_t>(static_cast<unsigned>(verdict) - 1U);
 }

@@ -6,18 +6,18 @@
 
 namespace nplc::faces {
 
-/// Of what lets its reader operate or change something.
+/// Minimum length of a secret that allows to operate or change something.
 inline constexpr std::size_t kLeastSecret = 12;
 
-/// The first line of a file. `error`: why there is none, one line; the file must be readable, and the secret
-/// not shorter than kLeastSecret and not longer than `most`.
+/// The first line of a file. `error`: a one-line error; the file must be readable, and the secret between
+/// kLeastSecret and `most` characters long.
 struct Secret {
     std::string text{};
     std::string error{};
 };
 Secret read_secret(const std::string& path, std::size_t most);
 
-/// Equal texts, in a time that does not tell where they differ; never where none is wanted.
+/// Constant-time comparison; false if no secret is set.
 bool same_secret(std::string_view given, std::string_view wanted);
 
 }  // namespace nplc::faces

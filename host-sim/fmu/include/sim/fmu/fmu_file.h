@@ -8,7 +8,7 @@
 
 namespace nplc::sim::fmu {
 
-/// Of the libraries in an FMU.
+/// Name of the libraries in an FMU.
 inline constexpr std::string_view kModelIdentifier = "nanoplc";
 
 struct FmuOptions {
@@ -16,10 +16,10 @@ struct FmuOptions {
     Names names;              ///< the program's
     std::string model_name;   ///< as the importer shows it
     int fmi = 3;              ///< 3: FMI 3.0; 2: FMI 2.0
-    std::string windows_dll;  ///< bytes of the library for Windows; empty: the FMU is for this system only
+    std::string windows_dll;  ///< bytes of the library for Windows; empty: for this system only
 };
 
-/// The FMU's bytes, the same for the same options. Throws BadMachine.
+/// The bytes of the FMU, the same for the same options. Throws BadMachine.
 std::string fmu_file(const FmuOptions& options);
 
 }  // namespace nplc::sim::fmu

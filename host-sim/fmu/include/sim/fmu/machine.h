@@ -10,12 +10,12 @@
 
 namespace nplc::sim::fmu {
 
-/// A machine that cannot be, with the reason for the user.
+/// An impossible machine, with the reason for the user.
 struct BadMachine : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What an FMU holds: a motor, or a gateway and its motor, in virtual time from 0.
+/// The machine in an FMU: a motor, or a gateway and its motor, in virtual time from 0.
 class Machine {
   public:
     Machine() = default;
@@ -23,13 +23,13 @@ class Machine {
     Machine& operator=(const Machine&) = delete;
     virtual ~Machine() = default;
 
-    /// Before the first advance().
+    /// To be called before the first advance().
     virtual void take_parameters(const Values& values) = 0;
-    /// An input gets another value, now.
+    /// Sets an input to a new value at the present time.
     virtual void set(Id input, double value) = 0;
-    /// Does what happens until `limit`, and at it.
+    /// Simulates up to `limit`, inclusive.
     virtual void advance(Time limit) = 0;
-    /// Writes the outputs as they stand, and nothing else.
+    /// Writes only the outputs, with their present values.
     virtual void read(Values& values) = 0;
 };
 

@@ -15,17 +15,17 @@ namespace nplc::sim::fmu {
 inline constexpr std::string_view kMachineFile = "machine.txt";
 inline constexpr std::string_view kTableFile = "table.bin";
 
-/// Which machine an FMU holds.
+/// Configuration of the machine in an FMU.
 struct Setup {
     registers::Model motor = registers::Model::mac140;
-    /// What is uploaded into the gateway (the table, the record of its set-points behind it); without it
-    /// there is no gateway.
+    /// The content uploaded into the gateway (the table, then the record of its set-points); empty: there is
+    /// no gateway.
     std::optional<std::vector<std::uint8_t>> table{};
-    /// Of a plant file; without it the bare motor. Its stops are not kept.
+    /// From a plant file; empty: the bare motor. Mechanical stops are not supported.
     std::optional<Load> plant{};
 };
 
-/// Differs for machines that differ, and for versions of this program.
+/// Differs between machines, and between versions of this program.
 std::string token_of(const Setup& setup);
 
 /// The text of kMachineFile.
@@ -33,10 +33,10 @@ std::string machine_text(const Setup& setup);
 
 struct SetupReading {
     Setup setup;
-    std::string problem;  ///< empty: all is well
+    std::string problem;  ///< empty on success
 };
 
-/// Of a folder `resources`; the name ends in a separator or not.
+/// From a folder `resources`; its name may end in a separator.
 SetupReading read_setup(const std::string& resources);
 
 }  // namespace nplc::sim::fmu

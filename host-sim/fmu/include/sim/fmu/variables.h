@@ -15,7 +15,7 @@ namespace nplc::sim::fmu {
 enum class Kind : std::uint8_t { real, integer, bits, truth };  ///< Float64, Int32, UInt32, Boolean
 enum class Causality : std::uint8_t { independent, parameter, input, output };
 
-/// A variable's value reference; these stay as they are.
+/// Value reference of a variable; these numbers never change.
 enum class Id : std::uint8_t {
     time = 0,
     in0 = 1,  ///< to in5 = 6
@@ -59,14 +59,14 @@ struct Variable {
     std::string name;
     Kind kind;
     Causality causality;
-    std::string unit;  ///< of `real` only
+    std::string unit;  ///< for `real` only
     std::string description;
-    double start = 0;  ///< of parameters and inputs
+    double start = 0;  ///< for parameters and inputs
     std::optional<double> min{};
     std::optional<double> max{};
 };
 
-/// All values of a machine; every kind of variable fits into a double.
+/// All values of a machine; a double can hold every kind of variable.
 class Values {
   public:
     double operator[](Id id) const { return values_[static_cast<std::size_t>(id)]; }
@@ -76,22 +76,22 @@ class Values {
     std::array<double, kReferences> values_{};
 };
 
-/// In ascending order of reference. `names` are the program's, for descriptions.
+/// In ascending order of reference. `names`: the program's, for descriptions.
 std::vector<Variable> variables_of(const Setup& setup, const Names& names = {});
 
-/// Start values of parameters and inputs, zero elsewhere.
+/// Start values of parameters and inputs; others are zero.
 Values start_values(const std::vector<Variable>& variables);
 
-/// Where the parameters load_inertia and friction_torque begin.
+/// Start value of the parameters load_inertia and friction_torque.
 double start_inertia(const Setup& setup);
 double start_friction(const Setup& setup);
 
-/// Seconds: a sample of the motor, or with a gateway the period in which it looks at its inputs.
+/// Seconds: a motor sample, or with a gateway the period of its input polling.
 double internal_step(const Setup& setup);
 
-/// What T_SOLL = 1023 is, N.m (001 §3.2.13: 1.57; MAC800 6.8).
+/// Torque in N.m at T_SOLL = 1023 (001 §3.2.13: 1.57; MAC800 6.8).
 double full_torque(registers::Model model);
-/// Of the bare motor, kg.m2, as the virtual motor has it.
+/// Inertia of the bare virtual motor, kg.m2.
 double motor_inertia(registers::Model model);
 
 }  // namespace nplc::sim::fmu

@@ -8,7 +8,7 @@
 
 namespace nplc::macreg {
 
-/// A value of the plant as people read it.
+/// A value of the plant in a user's units.
 struct Shown {
     std::string key{};  ///< as in the file
     std::string unit{};
@@ -21,17 +21,17 @@ struct Shown {
 /// All of plant_file::items(), in that order.
 std::vector<Shown> shown(const Fit& fit, const FoundPlant& found);
 
-/// `macreg fit`'s file: values that are told, and as comments those that are not.
+/// `macreg fit`'s file: determined values, and as comments those that could not be determined.
 std::string axis_file(const Fit& fit, const FoundPlant& found, const std::vector<std::string>& recordings);
 
-/// Measured and fitted, all recordings behind each other: speeds, the torque, and how far the fitted shaft
-/// strays.
+/// Measured and fitted, all recordings one after the other: velocities, torque, and the position error of the
+/// fitted shaft.
 Recording comparison(const Fit& fit, const std::vector<Series>& all, registers::Model model);
 
 struct MoveNeed {
     double torque = 0;      ///< of 1023: the most that the move takes
     double limit = 1023;    ///< T_SOLL
-    std::string without{};  ///< values that are not told and count for nothing here
+    std::string without{};  ///< values that were not determined and are left out here
     double excess() const { return torque / limit - 1; }
 };
 /// Of a move with V_SOLL and A_SOLL in the registers' steps, in the direction that takes more.

@@ -9,12 +9,12 @@
 
 namespace nplc::macreg {
 
-/// A value found, with the interval that holds the true one in 95 of 100 cases.
+/// A value found, with its 95 % confidence interval.
 struct Estimate {
     double value = 0;
     double low = 0;
     double high = 0;
-    bool told = false;  ///< narrow enough to be of use
+    bool told = false;  ///< the interval is narrow enough to be useful
     std::string why{};  ///< if not: what the recordings lack and which move to record
 };
 
@@ -37,11 +37,11 @@ struct Fit {
 /// Of recordings of the same axis; at least one. `model`: whose.
 Fit fit(const std::vector<Series>& all, registers::Model model);
 
-/// How well a fit foretells the velocity of a recording from its torque: 1 is wholly. Its start is fitted,
-/// nothing else.
+/// How well a fit predicts the velocity of a recording from its torque: 1 is perfectly. Only the initial
+/// state is fitted.
 double r2_of(const Fit& fit, const Series& series);
 
-/// In SI at the shaft, values that are told only; with `known_inertia` (kg m2) the torque constant too.
+/// In SI at the shaft, determined values only; with `known_inertia` (kg m2) the torque constant too.
 struct FoundPlant {
     plant_file::Plant plant{};
     plant_file::Plant low{};

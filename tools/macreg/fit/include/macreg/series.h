@@ -9,14 +9,16 @@
 
 namespace nplc::macreg {
 
-/// A recording in the motor's own terms, a value for each sample of the outer loop.
+/// A recording in the motor's own units, a value for each sample of the outer loop.
 struct Series {
     std::string name{};
-    std::vector<double> torque{};  ///< VF_OUT: asked for at the end of the sample
-    std::vector<double> counts{};  ///< where the shaft was at the end of the sample, from the first one
-    std::vector<char> at_rest{};   ///< samples in which static friction holds it, which is no part of a plant
+    std::vector<double> torque{};  ///< VF_OUT: requested at the end of the sample
     std::vector<double>
-        sine{};  ///< of the field's angle in the middle of the sample, from the first one's place
+        counts{};  ///< position of the shaft at the end of the sample, relative to the first one
+    std::vector<char>
+        at_rest{};  ///< samples in which static friction holds the shaft; they are not used for the plant
+    std::vector<double>
+        sine{};  ///< of the field's angle in the middle of the sample, relative to the first one's position
     std::vector<double> cosine{};
     std::size_t size() const { return torque.size(); }
     /// Counts in sample `i`, from 1.
@@ -28,7 +30,7 @@ inline constexpr std::size_t kFewestSamples = 100;
 struct SeriesReading {
     Series series{};
     registers::Model model = registers::Model::mac140;
-    std::string motor{};  ///< "MAC140", or of MAC50 to MAC141 any: "MAC50-141"
+    std::string motor{};  ///< "MAC140", or for any of MAC50 to MAC141 "MAC50-141"
     std::string error{};  ///< one line with what to record instead; empty if it can be fitted
 };
 

@@ -10,13 +10,13 @@
 
 namespace nplc::macreg {
 
-/// A stretch of a MacTalk line's bytes (001 §5.1) that belong together.
+/// A sequence of bytes of a MacTalk line (001 §5.1) that belong together.
 struct Frame {
     enum class Kind : std::uint8_t {
         message,  ///< head, complements and end are right
         accept,   ///< 11h x3
         broken,   ///< began as a message; `flaw` says where it went wrong
-        noise,    ///< no message's bytes
+        noise,    ///< bytes of no message
     };
     Kind kind = Kind::noise;
     base::Instant at{};  ///< of its first byte
@@ -24,21 +24,22 @@ struct Frame {
     std::string flaw{};
 };
 
-/// Cuts a stream into frames and names what is wrong with those that no receiver takes; loses no byte.
-/// Requests and answers may come mixed in one stream. A new head ends whatever was under way, so after noise
-/// the next whole message is one.
+/// Splits a stream into frames and reports what is wrong with those that no receiver accepts; loses no byte.
+/// Requests and answers may be mixed in one stream. A new head ends any pending frame, so after noise the
+/// next complete message is recognised.
 class FrameCutter {
   public:
-    /// `longest_pause` within a message; the manuals bound none, so it only says when to call one cut off.
+    /// `longest_pause` within a message; the manuals give no limit, so it only decides when a frame is
+    /// reported as cut off.
     explicit FrameCutter(base::Microseconds longest_pause) : longest_pause_(longest_pause) {}
 
     void receive(std::uint8_t byte, base::Instant at);
-    /// Nothing came until now.
+    /// No byte was received until now.
     void pass(base::Instant now);
-    /// Nothing more will come.
+    /// End of the stream.
     void finish();
     std::vector<Frame> take();
-    /// Since when something is under way.
+    /// Start of the pending frame.
     std::optional<base::Instant> since() const {
         return times_.empty() ? std::nullopt : std::optional(times_.front());
     }
@@ -58,7 +59,7 @@ class FrameCutter {
     std::vector<std::uint8_t> bytes_;
     std::vector<base::Instant> times_;
     std::string flaw_;
-    std::size_t flaw_at_ = 0;  ///< bytes up to the one that was wrong
+    std::size_t flaw_at_ = 0;  ///< bytes before the wrong one
     std::vector<Frame> ready_;
 };
 

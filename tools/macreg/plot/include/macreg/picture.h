@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// A picture of lines and words, and how it becomes a file.
+/// A picture of lines and texts, and its conversion to a file.
 namespace nplc::macreg {
 
 struct Point {
@@ -37,7 +37,7 @@ struct Picture {
 };
 
 std::string to_svg(const Picture& picture);
-/// Only letters of ASCII.
+/// ASCII letters only.
 std::string to_png(const Picture& picture);
 
 }  // namespace nplc::macreg

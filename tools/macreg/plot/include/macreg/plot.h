@@ -20,7 +20,7 @@ Ticks nice_ticks(double low, double high, int most);
 
 struct PlotOptions {
     int width = 960;
-    int height = 0;  ///< 0: as many panels as there are units need
+    int height = 0;  ///< 0: according to the number of panels
     std::string title{};
     std::vector<std::string> columns{};  ///< empty: all
 };
@@ -32,8 +32,8 @@ struct Plotted {
     std::string error{};  ///< one line; empty if it was drawn
 };
 
-/// A panel a unit, one above the other with a common axis of time; the curves that share a unit share a
-/// panel. At most kMostCurves. Where there are more samples than pixels, least and greatest are kept.
+/// One panel per unit, one above the other with a common time axis; curves of the same unit share a panel. At
+/// most kMostCurves. Where there are more samples than pixels, minimum and maximum are kept.
 Plotted plot(const Recording& recording, const PlotOptions& options);
 
 }  // namespace nplc::macreg

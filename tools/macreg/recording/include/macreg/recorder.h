@@ -17,7 +17,7 @@ namespace nplc::macreg {
 struct Relation {
     std::string_view sign;
     bool (*holds)(std::int64_t value, std::int64_t raw);
-    std::string_view told{};  ///< the usual sign, if this is another
+    std::string_view told{};  ///< the usual sign, if `sign` is another
 };
 
 /// A register compared with a value: `V_IST>100 rpm`, `P_IST <= -4096`, `ERR_STAT & IN_POS`.
@@ -34,20 +34,20 @@ struct ConditionReading {
     std::string error{};  ///< one line; empty if it was understood
 };
 
-/// Values as `typed_value` takes them; `&` wants bits' names or a number.
+/// Values as `typed_value` accepts them; `&` requires names of bits or a number.
 ConditionReading read_condition(std::string_view text, registers::Model model);
 
 /// "V_IST > 100 rpm"
 std::string condition_words(const Comparison& condition, registers::Model model);
 
-/// Registers that cannot be recorded so, a unit that does not record; one line with what to do.
+/// Registers that cannot be recorded in this way, or a unit that does not record; one line with what to do.
 class CannotRecord : public mactalk_client::Ended {
   public:
     explicit CannotRecord(const std::string& what, int exit_code = mactalk_client::kRefused)
         : Ended(exit_code, what) {}
 };
 
-/// What was asked for cannot be, of any motor.
+/// The request is not possible, on any motor.
 class NotRecordable : public CannotRecord {
   public:
     explicit NotRecordable(const std::string& what) : CannotRecord(what, mactalk_client::kUsageOrFile) {}
@@ -56,7 +56,7 @@ class NotRecordable : public CannotRecord {
 struct RecordProgress {
     enum class Phase : std::uint8_t { waiting, recording, reading } phase;
     std::size_t done;
-    std::size_t of;  ///< 0: no end is known
+    std::size_t of;  ///< 0: unknown
 };
 
 struct RecordOptions {
@@ -65,11 +65,11 @@ struct RecordOptions {
     bool fast = false;          ///< current loop's rate instead of the position loop's
     std::size_t samples = 895;  ///< 1 to kMostSamples; polling takes any number, 0 is no end
     std::optional<Comparison> when{};
-    base::Microseconds within{};  ///< for `when`; 0 is no end
-    base::Microseconds lasts{};   ///< polling: 0 is no end
-    /// Called as soon as the motor records: what is to be seen.
+    base::Microseconds within{};  ///< for `when`; 0: no limit
+    base::Microseconds lasts{};   ///< polling; 0: no limit
+    /// Called as soon as the motor records: starts the motion to be recorded.
     std::function<void()> then{};
-    /// Called between questions; throws to end it.
+    /// Called between requests; throws to end the recording.
     std::function<void(const RecordProgress&)> progress = [](const RecordProgress&) {};
 };
 
@@ -77,18 +77,18 @@ struct RecordOptions {
 inline constexpr std::size_t kMostSamples = 895;
 
 /// Records in the motor's sample buffer (001 §3.2.36, §3.2.112-116) and reads it by 53h. A sample whose
-/// answer was lost is read again after a rewind. SAMPLE1..4 and RECINNERBIT are put back whatever happens,
-/// and recording is stopped. Throws CannotRecord (NotRecordable before anything was asked), LineError, and
-/// what `progress` throws; `broken` then holds what had been read, each sample with its time.
+/// answer was lost is read again after a rewind. On every path SAMPLE1..4 and RECINNERBIT are restored and
+/// recording is stopped. Throws CannotRecord (NotRecordable before any request), LineError, and what
+/// `progress` throws; `broken` then holds the samples read so far, each with its time.
 Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
 
-/// What the buffer holds, whoever recorded it, TESTU_MODE and TESTA_MODE too (001 §4.4.9, §4.4.10): REC_CNT
-/// samples, or `samples` if not 0, of what SAMPLE1..4 name, at the rate that RECINNERBIT says. Nothing is
-/// recorded and no parameter changes. Throws as record_buffer does.
+/// Reads the buffer as it is, whoever recorded it, including TESTU_MODE and TESTA_MODE (001 §4.4.9, §4.4.10):
+/// REC_CNT samples, or `samples` if not 0, of the registers in SAMPLE1..4, at the rate of RECINNERBIT.
+/// Nothing is recorded and no parameter changes. Throws as record_buffer does.
 Recording fetch_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
 
-/// Reads the registers as fast as the line permits; each row has the time in the middle of its questions.
-/// `into` holds what came so far even if it throws.
+/// Polls the registers as fast as the line permits; each row has the time in the middle of its requests.
+/// `into` holds the rows read so far even if it throws.
 void record_polling(Motor& motor, const RecordOptions& options, Recording& into);
 
 }  // namespace nplc::macreg

@@ -19,9 +19,9 @@ struct Recording {
 
     std::string model{};
     unsigned address = 0;
-    double rate_hz = 0;        ///< 0: polled, the times are those of the answers
-    std::string start{};       ///< what began it: "now", "when V_IST > 100 rpm"
-    std::string incomplete{};  ///< why it ended early; empty if it is whole
+    double rate_hz = 0;        ///< 0: polled, with the times of the answers
+    std::string start{};       ///< the start condition: "now", "when V_IST > 100 rpm"
+    std::string incomplete{};  ///< why it ended early; empty if it is complete
     std::vector<double> time_s{};
     std::vector<Column> columns{};
 
@@ -33,8 +33,8 @@ Recording::Column column_of(const registers::Register& reg);
 /// The number that `value_text` shows, without its unit.
 double shown_value(const registers::Register& reg, registers::Model model, std::int64_t raw);
 
-/// Comment lines with `#` (model, address, rate, start, incomplete), a header `time_s,P_IST [counts],...`, a
-/// row a sample. The decimals are as many as tell neighbouring raw values apart.
+/// Comment lines with `#` (model, address, rate, start, incomplete), a header `time_s,P_IST [counts],...`,
+/// one row per sample. Enough decimals to distinguish neighbouring raw values.
 std::string to_csv(const Recording& recording);
 
 struct RecordingReading {
@@ -51,9 +51,9 @@ class RecordingReader {
   public:
     explicit RecordingReader(std::string name) : name_(std::move(name)) {}
 
-    /// False once something is wrong.
+    /// False after an error.
     bool take(std::string_view line);
-    /// A line without end.
+    /// For a line that exceeds the limit.
     void refuse_line();
     RecordingReading finish();
 

@@ -12,15 +12,15 @@ namespace nplc::macreg {
 struct UiOptions {
     std::uint8_t address = 255;
     registers::Model model = registers::Model::mac140;
-    std::string model_name{};  ///< for a user: MAC50-141 if no more is known
+    std::string model_name{};  ///< for a user: MAC50-141 if the exact model is unknown
     mactalk_client::MasterOptions line{};
     std::string title{};
-    /// Opens the port anew after it was lost.
+    /// Reopens the port after it was lost.
     std::function<host::ByteClient::Opened()> reopen{};
 };
 
-/// The full screen, until a user quits it or a signal ends it. A motor that goes away is shown, and looked
-/// for again. Throws std::runtime_error if there is no terminal.
+/// The full screen, until the user quits it or a signal ends it. The loss of the motor is shown, and the
+/// connection retried. Throws std::runtime_error if there is no terminal.
 void run_ui(std::unique_ptr<host::ByteClient> wire, const UiOptions& options);
 
 }  // namespace nplc::macreg

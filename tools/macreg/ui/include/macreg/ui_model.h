@@ -14,7 +14,7 @@
 #include "macreg/recording.h"
 #include "registers/details.h"
 
-/// What the full screen shows and what keys do to it, without a terminal and without a line.
+/// The contents of the full screen and the effects of keys, without a terminal and without a line.
 namespace nplc::macreg {
 
 enum class Panel : std::uint8_t { parameters, bits, samples, line };
@@ -44,7 +44,7 @@ struct KeyPress {
     char character = 0;
 };
 
-/// What a key asks of the line.
+/// A request to the motor caused by a key.
 struct Request {
     enum class Kind : std::uint8_t {
         none,
@@ -63,7 +63,7 @@ struct Request {
     std::string text{};  ///< record: "P_IST,V_IST slow"
 };
 
-/// The line at the bottom when it asks for something.
+/// The line at the bottom when it prompts for input.
 struct Prompt {
     enum class Kind : std::uint8_t { none, search, write, confirm, record } kind = Kind::none;
     std::string label{};
@@ -83,7 +83,7 @@ class UiModel {
     void set_trouble(std::string trouble);
     void set_recording(Recording recording);
     void set_progress(std::string progress) { progress_ = std::move(progress); }
-    /// Bytes and meaning of the last exchange, and the lines before it.
+    /// Bytes and meaning of the last exchange, and of those before it.
     void set_exchange(std::string sent, std::string received, const std::string& line);
 
     // What is shown.
@@ -114,11 +114,11 @@ class UiModel {
     const std::string& sent() const { return sent_; }
     const std::string& received() const { return received_; }
     const std::deque<std::string>& lines() const { return lines_; }
-    /// Mode and errors, or the trouble with the line.
+    /// Mode and errors, or the line's failure.
     std::string state_words() const;
     bool has_error() const;
 
-    /// How many rows a page has; the view says so.
+    /// The rows per page; set by the view.
     void set_page(std::size_t rows) { page_ = std::max<std::size_t>(1, rows); }
 
   private:
@@ -152,7 +152,7 @@ class UiModel {
     std::size_t row_before_search_ = 0;
     std::string last_search_;
     std::string last_record_ = "P_IST,V_IST slow";
-    Request pending_;  ///< waits for a yes
+    Request pending_;  ///< waits for confirmation
     std::string note_;
     bool bad_ = false;
     std::string trouble_;

@@ -4,7 +4,7 @@
 
 namespace nplc::dap {
 
-/// The debug adapter on two streams, until it is disconnected or `in` ends. Answers the exit code.
+/// Runs the debug adapter on two streams until it is disconnected or `in` ends. Returns the exit code.
 int run_adapter(std::istream& in, std::ostream& out);
 
 }  // namespace nplc::dap

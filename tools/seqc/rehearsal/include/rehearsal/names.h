@@ -5,7 +5,7 @@
 
 namespace nplc::rehearsal {
 
-/// What a program's symbols are to the simulator.
+/// Converts a program's symbols for the simulator.
 sim::Names names_of(const seqc::Symbols& symbols);
 
 }  // namespace nplc::rehearsal

@@ -9,12 +9,12 @@
 
 #include "seqc/seqc.h"
 
-/// A program on the simulated board with its virtual motor, in virtual time that stands still between two
+/// A program on the simulated board with its virtual motor, in virtual time that is stopped between two
 /// calls.
 namespace nplc::rehearsal {
 
 struct Options {
-    std::string scenario;       ///< its text; empty: inputs as they are set by hand
+    std::string scenario;       ///< its text; empty: inputs are set by hand
     std::string scenario_file;  ///< for messages
     std::string motor;          ///< MAC140 or MAC34-1; empty: the program's own
 };
@@ -37,9 +37,9 @@ struct State {
 enum class Stop : std::uint8_t {
     time,        ///< the limit
     breakpoint,  ///< such a step was entered
-    step,        ///< another step was entered
-    scan,        ///< something that the sequence sees or does changed
-    error,       ///< ERROR came
+    step,        ///< the step has changed
+    scan,        ///< any visible change of the sequence
+    error,       ///< ERROR became 1
     failure,     ///< an expectation of the scenario failed
     end,         ///< of the scenario
 };
@@ -49,11 +49,11 @@ struct Until {
     std::uint64_t breakpoints = 0;  ///< bit n: step n
     bool step = false;              ///< stop when the step changes
     bool scan = false;              ///< stop at any change
-    bool error = false;             ///< stop when ERROR comes
+    bool error = false;             ///< stop when ERROR becomes 1
     bool failure = true;            ///< stop when an expectation fails
 };
 
-/// Something that happened, for the console: an order, a remark, an expectation.
+/// A message for the console: an order, a remark, an expectation.
 struct Remark {
     std::uint64_t time_us = 0;
     std::string text;
@@ -64,9 +64,9 @@ class Rehearsal {
   public:
     struct Opened {
         std::unique_ptr<Rehearsal> rehearsal;
-        std::string error;  ///< why there is none
+        std::string error;  ///< why it could not be opened
     };
-    /// `program` must be good.
+    /// `program` must be without errors.
     static Opened open(const seqc::Compilation& program, const Options& options);
 
     virtual ~Rehearsal() = default;
@@ -76,12 +76,12 @@ class Rehearsal {
     virtual Stop run(const Until& until) = 0;
     virtual State state() const = 0;
     virtual void set_input(unsigned index, bool level) = 0;
-    /// Raw bits of a register of the motor; nothing of a drive of another family.
+    /// Raw bits of a register of the motor; empty for a drive of another family.
     virtual std::optional<std::int64_t> read_register(std::uint8_t number) const = 0;
-    /// As a person's program would write it; false if it cannot be.
+    /// Written as by a client; false if not possible.
     virtual bool write_register(std::uint8_t number, std::int64_t value) = 0;
     virtual std::vector<Remark> take_remarks() = 0;
-    /// To be called once, at the end: how many expectations passed and failed, in words.
+    /// To be called once, at the end: the number of passed and failed expectations as text.
     virtual std::string verdict() = 0;
 
   protected:

@@ -6,7 +6,7 @@
 
 #include "seqc/seqc.h"
 
-/// Scenarios of nanoplc-sim, read by the simulator's own reader.
+/// Checks scenarios of nanoplc-sim with the simulator's own parser.
 namespace nplc::rehearsal {
 
 struct ScenarioMistake {
@@ -15,7 +15,7 @@ struct ScenarioMistake {
     std::string message;
 };
 
-/// `symbols`: of the program that it is for. None where this system has no simulator.
+/// `symbols`: of the scenario's program. Returns no errors on systems without the simulator.
 std::vector<ScenarioMistake> mistakes_in_scenario(std::string_view text, const std::string& file,
                                                   const seqc::Symbols& symbols);
 

@@ -8,14 +8,14 @@
 
 namespace nplc::rpc {
 
-/// From threads that read or work to the one that answers.
+/// Queue from reading or working threads to the answering thread.
 template <class Item>
 class Queue {
   public:
     void put(Item item) {
         put(std::move(item), [](const Item&, const std::deque<Item>&) {});
     }
-    /// `look` sees the item and those that wait, before it joins them.
+    /// `look` is called with the item and the queued ones, before it is added.
     template <class Look>
     void put(Item item, const Look& look) {
         const std::lock_guard lock(mutex_);
@@ -27,7 +27,7 @@ class Queue {
         const std::lock_guard lock(mutex_);
         return items_.empty();
     }
-    /// Nothing if none came within `patience`; without patience it waits.
+    /// Empty on timeout; waits without limit if `patience` is empty.
     std::optional<Item> take(std::optional<std::chrono::milliseconds> patience) {
         std::unique_lock lock(mutex_);
         const auto has_item = [this] { return !items_.empty(); };

@@ -5,11 +5,12 @@
 namespace nplc::hal_mcu::cortex_m {
 
 void enable_interrupt(unsigned number);
-/// As if its device had asked for it.
+/// Sets an interrupt pending, as its device would.
 void pend_interrupt(unsigned number);
 void forbid_interrupts();
 void allow_interrupts();
-/// Until the next interrupt; also with interrupts forbidden, when one that is pending ends it at once.
+/// Sleeps until the next interrupt; also with interrupts disabled, where a pending one ends the sleep at
+/// once.
 void sleep();
 [[noreturn]] void reset();
 

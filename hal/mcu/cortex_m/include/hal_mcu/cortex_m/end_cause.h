@@ -6,7 +6,7 @@
 
 namespace nplc::hal_mcu::cortex_m {
 
-/// Of an exception that is nobody's, as the core numbers them: the chip's interrupts from 16 on, of which
+/// Cause for an unhandled exception, with the core's numbers: the chip's interrupts from 16 on, of which
 /// `watchdog` is the watchdog's.
 constexpr EndCause end_cause(std::uint32_t exception, unsigned watchdog) {
     constexpr std::uint32_t kFirstInterrupt = 16;

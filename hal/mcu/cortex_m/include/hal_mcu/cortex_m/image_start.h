@@ -2,20 +2,20 @@
 
 #include <cstdint>
 
-/// How a loader starts an image that has a vector table of its own.
+/// Start of an image with its own vector table, for a loader.
 namespace nplc::hal_mcu::cortex_m {
 
-/// Whose handlers serve exceptions from now on, on a core that can be told (VTOR: from the M3 on; a multiple
-/// of 256 bytes for up to 48 interrupts).
+/// Selects the vector table, on a core with VTOR (from the M3 on; a multiple of 256 bytes for up to 48
+/// interrupts).
 void use_vectors(std::uint32_t vectors);
-/// The same on a core whose vector table is always the one at address 0 (M0), where all must lead to
-/// nplc_forward(). The linker script names link_forward, a word of RAM that nobody else uses.
+/// The same on a core whose vector table is fixed at address 0 (M0), where all vectors must be
+/// nplc_forward(). The linker script defines link_forward, a word of RAM reserved for this.
 void forward_to(std::uint32_t vectors);
-/// As a reset with this vector table would, which is in use already.
+/// Starts the image as a reset would; its vector table must be in use already.
 [[noreturn]] void start_image(std::uint32_t vectors);
 
 extern "C" {
-/// For every exception but reset: the same one of the image. 12 instructions' time.
+/// Handler for every exception but reset: calls the image's handler. Takes 12 instructions.
 void nplc_forward();
 }
 

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
-/// What happens between reset and the board's code, and after a fault. The linker script of a board names
-/// the places (link_...), its vector table begins with VectorsOfCore.
+/// Code between reset and the board's code, and after a fault. A board's linker script defines the addresses
+/// (link_...); its vector table begins with VectorsOfCore.
 namespace nplc::hal_mcu::cortex_m {
 
-/// The registers that an exception leaves on the stack.
+/// The registers that an exception pushes on the stack.
 struct Frame {
     std::uint32_t r0, r1, r2, r3, r12, lr, pc, xpsr;
 };
@@ -31,14 +31,14 @@ struct VectorsOfCore {
 };
 
 extern "C" {
-/// Paints the stack, sets up memory, constructs what is static and calls the board's run_firmware().
+/// Paints the stack, initializes memory, constructs static objects and calls the board's run_firmware().
 [[noreturn]] void nplc_reset();
-/// Every exception that is nobody's: takes a fresh stack and calls the board's end_firmware() with the
-/// exception's number and the place where it happened, 0 if the stack was not usable.
+/// Unhandled exception: takes a fresh stack and calls the board's end_firmware() with the exception's number
+/// and the address where it happened, 0 if the stack was not usable.
 void nplc_fault();
 }
 
-/// What every board begins its table with.
+/// The first entries of every board's table.
 constexpr VectorsOfCore vectors_of_core(std::uint32_t* stack, Handler systick) {
     return {.stack = stack,
             .reset = nplc_reset,
@@ -55,11 +55,11 @@ constexpr VectorsOfCore vectors_of_core(std::uint32_t* stack, Handler systick) {
             .systick = systick};
 }
 
-/// A word of stack that nothing has used since the start.
+/// Pattern of a stack word that was never used.
 inline constexpr std::uint32_t kPaint = 0xA5A5'A5A5U;
 
 }  // namespace nplc::hal_mcu::cortex_m
 
-// The board's; they have no module.
+// Provided by the board, in the global namespace.
 void run_firmware();
 [[noreturn]] void end_firmware(std::uint32_t exception, std::uint32_t code_address);

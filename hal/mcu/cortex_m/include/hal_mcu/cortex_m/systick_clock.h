@@ -8,10 +8,11 @@
 
 namespace nplc::hal_mcu::cortex_m {
 
-/// Microseconds out of SysTick, which interrupts every millisecond. For the loop only: not for interrupts.
+/// Microsecond clock by SysTick, which interrupts every millisecond. For the main loop only, not for
+/// interrupts.
 class SysTickClock final : public ports::Clock {
   public:
-    /// `hertz` of the core, whole megahertz.
+    /// `hertz`: core clock, whole megahertz.
     void begin(std::uint32_t hertz);
     base::Instant now() override;
 

@@ -4,14 +4,13 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// Pages of the chip's own flash. The chip stands still while it works, interrupts included: 46 us at most
-/// for each word, of which interrupts come in between, and 22.3 ms for a page's erasure. So whoever erases
-/// knows that nothing moves.
+/// Pages of the chip's own flash. The core halts during an operation, interrupts included: 46 us at most per
+/// word, with interrupts served in between, and 22.3 ms for a page erase. So erase only while nothing moves.
 class Flash final : public ports::Storage {
   public:
     static constexpr std::uint32_t kPage = 1024;
 
-    /// From a page's begin on; `size` in whole pages.
+    /// `begin`: start of a page; `size`: whole pages.
     constexpr Flash(std::uint32_t begin, std::uint32_t size) : begin_(begin), size_(size) {}
 
     ports::StorageGeometry geometry() const override;
@@ -25,8 +24,8 @@ class Flash final : public ports::Storage {
 
     std::uint32_t begin_;
     std::uint32_t size_;
-    std::uint32_t at_ = 0;                        ///< in the chip: of the next word
-    std::span<const std::uint8_t> to_program_{};  ///< what is left
+    std::uint32_t at_ = 0;                        ///< chip address of the next word
+    std::span<const std::uint8_t> to_program_{};  ///< bytes still to program
 };
 
 }  // namespace nplc::hal_mcu::nrf51

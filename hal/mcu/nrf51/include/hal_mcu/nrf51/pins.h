@@ -7,7 +7,7 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// A button or a strap between a pin and ground.
+/// Reads a button or strap between a pin and ground.
 bool is_pulled_low(std::uint8_t pin);
 
 /// Six pins, high = active; pulled down, so that an open terminal is off.
@@ -25,7 +25,7 @@ class InputPins final : public ports::DigitalInputs {
 class OutputPins final : public ports::DigitalOutputs {
   public:
     constexpr explicit OutputPins(const std::array<std::uint8_t, 4>& numbers) : numbers_(numbers) {}
-    /// With these levels from the first moment on.
+    /// Sets these levels when the pins become outputs.
     void begin(std::uint8_t levels);
     void write(std::uint8_t levels) override;
 

@@ -8,27 +8,27 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// Bites twice. After the time without feeding, looked at with each of the clock's ticks, interrupt
-/// kInterrupt comes; when no ticks come any more the chip's own watchdog, whose time cannot be changed once
-/// it runs, resets the chip after kWithoutTicks. Once begun nothing but a reset ends it.
+/// Two stages. The watchdog timeout, checked with each clock tick, triggers interrupt kInterrupt; if there
+/// are no ticks any more, the chip's own watchdog, whose timeout cannot be changed once it runs, resets the
+/// chip after kWithoutTicks. Once started only a reset stops it.
 class Watchdog final : public ports::Watchdog {
   public:
-    static constexpr unsigned kInterrupt = 20;  ///< the first that no device of the chip has
+    static constexpr unsigned kInterrupt = 20;  ///< the first one that no device of the chip uses
     static constexpr base::Milliseconds kWithoutTicks{500};
 
     /// `time`: an hour at the most.
     void begin(base::Milliseconds time);
-    /// Only after begin(); feeds.
+    /// Needs begin(); also feeds.
     void set_time(base::Milliseconds time);
     void feed() override { fed_ = true; }
-    /// The chip's own alone, and its food: for a loader, after which begin() finds it running.
+    /// Starts or feeds only the chip's own watchdog: for a loader, after which begin() finds it running.
     static void begin_chip();
     static void feed_chip();
-    /// From the clock's interrupt; `now` in microseconds, may wrap.
+    /// To be called by the clock's interrupt; `now` in microseconds, may wrap.
     void on_tick(std::uint32_t now);
 
   private:
-    std::atomic<std::uint32_t> time_{0};  ///< microseconds; 0 until it is begun
+    std::atomic<std::uint32_t> time_{0};  ///< microseconds; 0 before begin()
     std::atomic<bool> fed_{false};
     std::uint32_t fed_at_ = 0;
 };

@@ -4,10 +4,10 @@
 
 namespace nplc::hal_mcu::stellaris {
 
-/// The flash and its controller, or a test's model of both.
+/// The flash and its controller, or a test model of both.
 class FlashAccess {
   public:
-    /// `offset`: of a register of the controller, from 400FD000h on.
+    /// `offset`: of a controller register, from 400FD000h on.
     virtual std::uint32_t get(std::uint32_t offset) = 0;
     virtual void set(std::uint32_t offset, std::uint32_t value) = 0;
     virtual std::uint8_t byte(std::uint32_t address) = 0;
@@ -16,20 +16,19 @@ class FlashAccess {
     ~FlashAccess() = default;
 };
 
-/// The chip's. Told the clock's speed by begin_flash().
+/// The chip's flash. Needs begin_flash().
 FlashAccess& chip_flash();
-/// What the controller times its pulses by: 50 MHz. Before anything is programmed or erased.
+/// Sets the clock for the controller's pulse timing: 50 MHz. Before any program or erase.
 void begin_flash();
 
-/// Pages of the chip's own flash. The core stands still while it works, interrupts included, since its code
-/// comes from there: some 50 us for each word, of which interrupts come in between, and 25 ms for a page's
-/// erasure. So whoever erases knows that nothing moves. What the chip protects (FMPPE) is not changed:
-/// failed.
+/// Pages of the chip's own flash. The core halts during an operation, interrupts included, since its code is
+/// in the same flash: some 50 us per word, with interrupts served in between, and 25 ms for a page erase. So
+/// erase only while nothing moves. An operation on protected pages (FMPPE) changes nothing: failed.
 class Flash final : public ports::Storage {
   public:
     static constexpr std::uint32_t kPage = 1024;
 
-    /// From a page's begin on; `size` in whole pages.
+    /// `begin`: start of a page; `size`: whole pages.
     constexpr Flash(FlashAccess& chip, std::uint32_t begin, std::uint32_t size)
         : chip_(chip), begin_(begin), size_(size) {}
 
@@ -49,8 +48,8 @@ class Flash final : public ports::Storage {
     FlashAccess& chip_;
     std::uint32_t begin_;
     std::uint32_t size_;
-    std::uint32_t at_ = 0;                        ///< in the chip: of the next word
-    std::span<const std::uint8_t> to_program_{};  ///< what is left
+    std::uint32_t at_ = 0;                        ///< chip address of the next word
+    std::span<const std::uint8_t> to_program_{};  ///< bytes still to program
     bool failed_ = false;
 };
 

@@ -24,7 +24,7 @@ class I2cMaster final : public I2cBus {
 
     Transfer transfer_{};
     std::size_t sent_ = 0;
-    std::size_t asked_ = 0;  ///< bytes of transfer_.in that the chip was told to receive
+    std::size_t asked_ = 0;  ///< bytes of transfer_.in that have been requested from the chip
     std::atomic<State> state_{State::idle};
 };
 

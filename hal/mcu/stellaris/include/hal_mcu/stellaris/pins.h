@@ -10,7 +10,7 @@ namespace nplc::hal_mcu::stellaris {
 inline constexpr std::uint32_t kPortB = 0x4000'5000;
 inline constexpr std::uint32_t kPortD = 0x4000'7000;
 
-/// Pins given to a peripheral of the chip.
+/// Assigns pins to a peripheral of the chip.
 void connect_to_peripheral(std::uint32_t port, std::uint8_t pins);
 
 /// Six pins of one port, high = active; pulled down, so that an open terminal is off.
@@ -31,7 +31,7 @@ class OutputPins final : public ports::DigitalOutputs {
   public:
     constexpr OutputPins(std::uint32_t port, const std::array<std::uint8_t, 4>& numbers)
         : port_(port), numbers_(numbers) {}
-    /// With these levels from the first moment on.
+    /// Sets these levels when the pins become outputs.
     void begin(std::uint8_t levels);
     void write(std::uint8_t levels) override;
 

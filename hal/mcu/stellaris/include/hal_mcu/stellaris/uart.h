@@ -17,7 +17,7 @@ class Uart final : public BufferedSerial {
     static constexpr Place kUart1{0x4000'D000, 6, 0x4000'7000, 0x0C};   // PD2, PD3
     static constexpr Place kUart2{0x4000'E000, 33, 0x4002'6000, 0x03};  // PG0, PG1
 
-    explicit Uart(const Place& place);  ///< at run time, so that no image of the buffers lies in flash
+    explicit Uart(const Place& place);  ///< at run time, so that the flash holds no image of the buffers
 
     void begin(std::uint32_t baud);
     void on_interrupt();

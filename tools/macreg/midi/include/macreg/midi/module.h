@@ -8,7 +8,7 @@
 /// One MIDI module on a line or bus.
 namespace nplc::macreg::midi {
 
-/// All that a module tells, at about one time.
+/// All readable values of a module, at about one time.
 struct Readings {
     std::map<std::uint8_t, std::uint32_t> replies{};  ///< by query
 
@@ -23,9 +23,9 @@ struct Readings {
 };
 
 struct ChangeResult {
-    std::optional<std::int64_t> before{}, after{};  ///< nothing where it cannot be read
+    std::optional<std::int64_t> before{}, after{};  ///< nullopt where it cannot be read
     bool taken = false;
-    std::string why{};  ///< a sentence if not
+    std::string why{};  ///< a sentence if it was not accepted
 };
 
 class Module {
@@ -36,21 +36,21 @@ class Module {
     midi_client::Master& master() { return master_; }
     std::uint8_t address() const { return address_; }
 
-    /// With Imax and full speed as the module has them now.
+    /// With Imax and full speed as they are set in the module now.
     const Scale& scale();
-    /// What needs no asking.
+    /// What is known without a request.
     const Scale& known_scale() const { return scale_; }
 
     std::int64_t read(const Parameter& parameter);
     Readings read_all();
 
-    /// Writes and reads back; what is not certain to have been taken is written again. A parameter that
-    /// cannot be read is written once.
+    /// Writes and reads back; an unconfirmed write is repeated. A parameter that cannot be read is written
+    /// once.
     ChangeResult change(const Parameter& parameter, std::int64_t raw);
 
-    /// Two looks at its position, or BUSY.
+    /// Compares two reads of its position, or reads BUSY.
     bool moves();
-    /// Why it refused this command, as far as it lets one see: "it is refused while the axis moves; ...".
+    /// Why it refused this command, as far as its state shows: "it is refused while the axis moves; ...".
     std::string refusal(std::uint8_t command, std::uint32_t data);
     /// Throws midi_client::Refused with the reason.
     void order(reg::Command command, std::uint32_t data = 0);

@@ -18,7 +18,7 @@ namespace nplc::macreg::midi {
 struct PathFile {
     std::vector<std::uint8_t> addresses{};
     std::vector<midi_client::Waypoint> path{};  ///< absolute positions
-    std::vector<std::string> problems{};        ///< "line 3: ...", all of them; none if all is well
+    std::vector<std::string> problems{};        ///< "line 3: ...", all of them; empty if the file is valid
 };
 PathFile read_path(std::string_view text, const Scale& scale);
 

@@ -12,9 +12,9 @@ namespace nplc::macreg::midi {
 
 struct RawFrame {
     midi_client::Request request{};
-    std::string error{};  ///< a sentence, empty if all is well
+    std::string error{};  ///< a sentence, empty if the frame is valid
 };
-/// 14 hexadecimal digits: address, index, sub-index, four bytes of parameters; blanks do not count. On CAN
+/// 14 hexadecimal digits: address, index, sub-index, four bytes of parameters; blanks are ignored. On CAN
 /// address 00 is every module.
 RawFrame read_raw(std::string_view text, bool can);
 
@@ -24,7 +24,7 @@ std::string describe_request(const midi_client::Request& request, const Scale& s
 std::string describe_answer(const midi_client::Request& request, const midi_client::Answer& answer,
                             const Scale& scale);
 
-/// What may happen if it is sent unthinkingly; empty if it only reads, sets a parameter, or stops.
+/// The risk of sending it; empty if it only reads, sets a parameter, or stops.
 std::string danger_of(const midi_client::Request& request);
 
 }  // namespace nplc::macreg::midi

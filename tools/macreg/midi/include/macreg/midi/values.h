@@ -9,8 +9,8 @@
 #include "registers/midi.h"
 #include "registers/scale.h"
 
-/// What a MIDI module can be asked for and told, by name; its values, and numbers with units, as people read
-/// and type them.
+/// The parameters of a MIDI module by name, their values, and numbers with units, as users read and type
+/// them.
 namespace nplc::macreg::midi {
 
 namespace reg = registers::midi;
@@ -41,17 +41,17 @@ struct Parameter {
     std::string_view name;
     Sort sort;
     std::string_view title;
-    std::optional<reg::Query> query{};  ///< nothing: it cannot be read
+    std::optional<reg::Query> query{};  ///< nullopt: it cannot be read
     std::size_t field = 0;              ///< of the query's reply
     std::uint8_t sub_index = 0;
-    std::optional<reg::Command> command{};  ///< nothing: it is read only
+    std::optional<reg::Command> command{};  ///< nullopt: it is read-only
     std::span<const Choice> choices{};
 };
 
 std::span<const Parameter> parameters();
 /// In any case of letters.
 const Parameter* find_parameter(std::string_view name);
-/// What a query's reply holds of it.
+/// The parameter's value in a query's reply.
 std::int64_t raw_in(const Parameter& parameter, std::uint32_t reply);
 /// The command's four bytes.
 std::uint32_t data_for(const Parameter& parameter, std::int64_t raw);
@@ -59,20 +59,20 @@ std::uint32_t data_for(const Parameter& parameter, std::int64_t raw);
 const reg::CommandRow& row_of(const Parameter& parameter);
 
 struct Quantity {
-    registers::Ratio size{0, 1};  ///< without its sign; 0 / 1 for nothing
+    registers::Ratio size{0, 1};  ///< absolute value; 0 / 1 for no number
     bool negative = false;
     std::string unit{};  ///< as typed, without blanks; empty if there is none
 };
-/// `1500 rpm`, `-2.5rev`, `+10`, `50%`, `0x1F`; nothing if it is no number, or has more than 12 digits.
+/// `1500 rpm`, `-2.5rev`, `+10`, `50%`, `0x1F`; nullopt if it is no number, or has more than 12 digits.
 std::optional<Quantity> read_quantity(std::string_view text);
 
-/// A module's on any kind of line, 0 to 127.
+/// A module's address on any kind of line, 0 to 127.
 std::optional<std::uint8_t> read_address(std::string_view text);
 
-/// The nearest whole number; nothing beyond 32 bits.
+/// The nearest whole number; nullopt beyond 32 bits.
 std::optional<std::int64_t> nearest(const registers::Ratio& ratio);
 
-/// What was typed, in whole increments or in a speed; `error` is a sentence, empty if all is well.
+/// The typed value, in whole increments or in a speed; `error` is a sentence, empty if it is valid.
 struct TypedNumber {
     std::int64_t value = 0;
     bool exact = true;
@@ -88,29 +88,28 @@ TypedNumber typed_rate(std::string_view text, std::optional<Model> model, bool s
 /// `5s`, `200ms`, `0.5 min`; without a unit seconds. In microseconds.
 TypedNumber typed_time(std::string_view text);
 
-/// What turns, percent and degrees are of.
+/// The reference values of turns, percent and degrees.
 struct Scale {
     std::optional<reg::Model> model{};  ///< without it, increments
     std::int64_t imax = reg::kMostTorque;
-    std::int64_t period = 0;  ///< of SPEED, for accelerations; 0: not known
+    std::int64_t period = 0;  ///< of SPEED, for accelerations; 0: unknown
 };
 
-/// "20480 inc (2.0480 rev)", "300 rpm", "50.0 %", "standby"; numbers as the module has them where the model
-/// is not known.
+/// "20480 inc (2.0480 rev)", "300 rpm", "50.0 %", "standby"; raw numbers where the model is not known.
 std::string value_text(const Parameter& parameter, std::int64_t raw, const Scale& scale);
 
 struct TypedValue {
     std::int64_t raw = 0;
-    std::string error{};     ///< a sentence, empty if all is well
-    std::string rounding{};  ///< what became of the value; empty if it is exact
+    std::string error{};     ///< a sentence, empty if it is valid
+    std::string rounding{};  ///< how the value was rounded; empty if it is exact
 };
-/// Takes what value_text shows and the units of `units_text`; `raw:480`. Never out of range.
+/// Accepts what value_text shows and the units of `units_text`; `raw:480`. The result is always in range.
 TypedValue typed_value(const Parameter& parameter, std::string_view text, const Scale& scale);
 
-/// "rpm, rev/s, inc/s", "none, hardware, software, both"; empty for what is read only.
+/// "rpm, rev/s, inc/s", "none, hardware, software, both"; empty for a read-only parameter.
 std::string units_text(const Parameter& parameter);
 
-/// Sentences of the bits that are set, and what there is no bit for; empty if none is.
+/// Sentences for the bits that are set, and for states without a bit; empty if there is none.
 std::string status_words(std::uint32_t status);
 std::string terminal_words(std::uint32_t terminals);
 /// "7.4" of 00000704h (R).

@@ -6,10 +6,10 @@
 #include "macreg/causes.h"
 #include "macreg/midi/module.h"
 
-/// Why does it not move? (000 §VI, 003 §IV, §VII)
+/// Diagnoses why an axis does not move (000 §VI, 003 §IV, §VII).
 namespace nplc::macreg::midi {
 
-/// What `why` judges: the same readings twice, some time apart.
+/// The input of `why`: the same readings twice, some time apart.
 struct Condition {
     Scale scale{};
     Readings before{};
@@ -18,10 +18,10 @@ struct Condition {
 /// 200 ms apart.
 Condition read_condition(Module& module);
 
-/// Two modules answer to one address. Nothing else can be judged then.
+/// Two modules answer to one address, so nothing else can be diagnosed.
 Finding same_address(std::uint8_t address, bool is_can);
 
-/// What to mend first in front. Pure; never empty.
+/// The most urgent cause first. Pure; never empty.
 std::vector<Finding> why(const Condition& condition);
 
 }  // namespace nplc::macreg::midi
