@@ -33,7 +33,7 @@ void Gateway::block_start(SafeReason reason) {
 
 void Gateway::wait_for_mark(SafeReason reason) {
     waits_because_ = reason;
-    block_start(reason);
+    if (permission_.shown(reason) == reason) block_start(reason);
 }
 
 void Gateway::block(SafeReason reason) {
@@ -118,6 +118,7 @@ base::Status Gateway::run() {
 }
 
 base::Status Gateway::run_until(After hold_after) {
+    if (is_in_service()) return base::Error::not_enabled;
     if (scan_.table().empty()) return base::Error::no_table;
     if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
     if (!enabled()) return base::Error::not_enabled;

@@ -235,7 +235,9 @@ class OfLm3s(Case):
         self.assertEqual(code, 0, told)
         self.cut_power()
         self.assertTrue(self.ctl("status")[1]["waits_for_first_run"])
-        self.ctl("run")
+        self.ctl("give-up-stop")  # no motor confirms that of the start
+        code, told = self.ctl("run")
+        self.assertEqual(code, 0, told)
         self.cut_power()
         self.assertNotEqual(self.ctl("status")[1]["state"], "stopped")  # it starts by itself, and waits for the motor
         self.expect_refused("stop", firmware)

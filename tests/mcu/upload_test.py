@@ -126,7 +126,7 @@ class NoMemory(unittest.TestCase):
             self.addCleanup(line.close)
             self.assertEqual(line.log(), [(gw.STORE_DAMAGED, 0), (gw.BAD_SETTINGS, 0), (gw.STORE_DAMAGED, 0)], "settings and table")
             self.assertEqual(line.read(gw.SAFE_REASON), gw.BAD_SETTINGS)
-            self.assertEqual(line.read(gw.STORE_FLAGS), 2, "initial settings are in use")
+            self.assertEqual(line.read(gw.STORE_FLAGS), 2 | 8, "initial settings are in use, and nobody has commanded run")
             self.assertTrue(line.write(gw.COMMAND, number(gw.BEGIN)))
             failed = machine.until(lambda: line.read(gw.UPLOAD_STATE), lambda state: state & 0xFF == gw.FAILED)
             self.assertEqual(failed >> 8 & 0xFF, gw.STORAGE_FAILED)
@@ -144,7 +144,7 @@ class Noise(Case):
                 self.board.monitor.do("chardev-send-break", id="user")
                 breaks += 1
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
-        self.assertEqual(self.line.log(), [])
+        self.assertEqual(self.line.log(), [(gw.NOT_STARTED, 0)], "a new board waits for its first run, and nothing else happened")
         self.assertGreaterEqual(self.line.read(gw.LINE_FAULTS) & 0xFFFF, breaks)
 
     def test_a_flood_costs_messages_and_nothing_else(self):
@@ -155,7 +155,7 @@ class Noise(Case):
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.read(gw.UPLOAD_RECEIVED), 0, "no upload was begun")
         self.assertGreater(self.line.read(gw.LINE_FAULTS) >> 16, 0, "characters lost")
-        self.assertEqual(self.line.log(), [])
+        self.assertEqual(self.line.log(), [(gw.NOT_STARTED, 0)], "a new board waits for its first run, and nothing else happened")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ COMMAND, UPLOAD_STATE, UPLOAD_RECEIVED, UPLOAD_BYTES, UPLOAD_CRC, TABLE_POINTER,
 STOP, RESET, KEEP, BEGIN, COMMIT, ACTIVATE = 2, 7, 8, 16, 17, 19
 STORED, FAILED = 4, 5  # upload states
 STORAGE_FAILED, NOT_FOR_MOTOR = 15, 36  # results
-STORE_DAMAGED, BAD_SETTINGS = 26, 9  # an event, and a reason, which is one too
+STORE_DAMAGED, NOT_STARTED, BAD_SETTINGS = 26, 1, 9  # an event, and reasons, which are events too
 LOG = 128
 ACCEPT = b"\x11\x11\x11"
 
