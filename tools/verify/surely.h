@@ -1,14 +1,16 @@
 #pragma once
 
+#include <cstdint>
+
 #include "explorer.h"
 
 namespace nplc::verify {
 
-/// Whether from every scan that `ways` knows, outside of `target`, a course of the gateway's surely leads to
-/// `target`: with inputs that keep their levels for the debounce time, and a timer of which is known only
-/// that it runs. True is a proof; false says nothing. `ways` must be complete and know lost links.
-/// From each scan, or from `only` these. `held`: inputs, as bits, that keep their levels for longer; they
-/// only change where nothing else happens.
+/// Whether from every scan in `ways` outside of `target` some course that is possible with the gateway
+/// certainly leads to `target`: with inputs that keep their levels for the debounce time, and a timer that is
+/// only known to run. True is a proof; false is no result. `ways` must be complete and include lost links.
+/// From each scan, or from `only` these. `held`: the inputs, as bits, that keep their levels for longer; they
+/// change only where the scans do nothing.
 bool surely_possible(const Explorer& ways, const Target& target, std::uint8_t held,
                      const Explorer::Scans* only = nullptr);
 /// The same from power-up.
