@@ -91,9 +91,8 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W040", Severity::warning, Phase::motion},     {"W041", Severity::warning, Phase::motion},
     {"W042", Severity::warning, Phase::motion},     {"W043", Severity::warning, Phase::motion},
     {"W044", Severity::warning, Phase::motion},     {"W045", Severity::warning, Phase::motion},
-    {"W046", Severity::warning, Phase::motion},
-    {"W050", Severity::warning, Phase::motion},     {"W051", Severity::warning, Phase::motion},
-    {"W052", Severity::warning, Phase::motion},
+    {"W046", Severity::warning, Phase::motion},     {"W050", Severity::warning, Phase::motion},
+    {"W051", Severity::warning, Phase::motion},     {"W052", Severity::warning, Phase::motion},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {

@@ -61,15 +61,12 @@ class MotionWalk {
 
     static void apply(MotionState& state, const Send& send) {
         const MotionEffect effect = motion_effect_of(send);
-        if (effect == MotionEffect::none) return;
-        if (effect == MotionEffect::stop) {
-            state.run = state.place = {};
-            return;
-        }
+        if (effect == MotionEffect::stop) state.run = state.place = {};
+        if (effect != MotionEffect::init && !moves(effect)) return;
         state.stand();
         if (effect == MotionEffect::run) state.run = send.span;
         if (effect == MotionEffect::place) state.place = send.span;
-        if (effect == MotionEffect::drive) state.drive = send.span;
+        if (outlasts_stop(effect)) state.drive = send.span;
     }
 
     void judge(const Rule& rule, const MotionState&) {
@@ -81,14 +78,8 @@ class MotionWalk {
             if (!is_meant(when, condition, *target)) return;
             MotionState state = before_;
             if ((when & ~truth_of_bit(kInPosBit)).none()) state.arrive();
-            bool is_stopped = false;
-            for (const Send& send : rule.action.sends) {
-                if (moves(motion_effect_of(send)) || sets_speed(send)) return;
-                is_stopped = is_stopped || motion_effect_of(send) == MotionEffect::stop;
-                apply(state, send);
-            }
-            if (state.any().length == 0 || goes_on_with_order(*to, is_stopped, 3)) return;
-            warn(condition, *target, state, is_stopped);
+            if (state.any().length == 0 || is_ordered(rule) || goes_on_with_order(*to, 3)) return;
+            warn(condition, *target, state);
         });
     }
 
@@ -118,43 +109,36 @@ class MotionWalk {
         return false;
     }
 
-    /// A velocity for what goes on.
-    static bool sets_speed(const Send& send) {
-        return send.reg != nullptr && send.reg->number == registers::V_SOLL && send.value != 0;
+    /// It says what the motor does from now on, if only at which speed. A STOP that ends nothing gets W050.
+    static bool is_ordered(const Rule& rule) {
+        return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [](const Send& send) {
+            const MotionEffect effect = motion_effect_of(send);
+            return effect == MotionEffect::init || effect == MotionEffect::stop ||
+                   effect == MotionEffect::speed || moves(effect);
+        });
     }
 
     /// In the scan after, whatever the inputs are.
-    bool goes_on_with_order(const StepPlan& step, bool is_stopped, int depth) const {
+    bool goes_on_with_order(const StepPlan& step, int depth) const {
         Truth left = ~truth_of_bit(kErrorBit);
         for (const Rule& rule : step.rules) {
-            const bool orders =
-                std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [&](const Send& send) {
-                    const MotionEffect effect = motion_effect_of(send);
-                    return effect == MotionEffect::init || moves(effect) ||
-                           (effect == MotionEffect::stop && !is_stopped);
-                });
             const StepPlan* next =
                 depth > 0 && leaves(step, rule) ? step_numbered(*rule.action.next) : nullptr;
-            if (orders || (next != nullptr && goes_on_with_order(*next, is_stopped, depth - 1)))
+            if (is_ordered(rule) || (next != nullptr && goes_on_with_order(*next, depth - 1)))
                 left &= ~rule.when;
         }
         return left.none();
     }
 
-    void warn(Span guard, const StepPlan& target, const MotionState& state, bool is_stopped) {
+    void warn(Span guard, const StepPlan& target, const MotionState& state) {
         const Span place = target.span.length != 0 ? target.span : guard;
         if (!said_.insert({guard.offset, place.offset}).second) return;
         const bool is_fault = target.span == fault_ && fault_.length != 0;
-        Diagnostic& d =
-            report_.add("W042", place,
-                        is_stopped ? fmt::format("'{}' is entered while the motor may move on: a STOP ends "
-                                                 "no home search and no analogue torque",
-                                                 target.name)
-                                   : fmt::format("'{}' is entered while the motor may move, and nothing "
-                                                 "stops it",
-                                                 target.name),
-                        fmt::format("write {} in the step; or ALLOW W042 BECAUSE 'reason';",
-                                    state.drive.length != 0 ? "ENTRY MODE_REG := 0;" : "ENTRY STOP;"));
+        Diagnostic& d = report_.add(
+            "W042", place,
+            fmt::format("'{}' is entered while the motor may move, and nothing stops it", target.name),
+            fmt::format("write {} in the step; or ALLOW W042 BECAUSE 'reason';",
+                        state.drive.length != 0 ? "ENTRY MODE_REG := 0;" : "ENTRY STOP;"));
         d.notes.push_back(
             {guard, is_fault ? "this leads there, and unlike an ERROR stops nothing" : "this leads there"});
         d.notes.push_back({state.any(), "what began here may go on"});

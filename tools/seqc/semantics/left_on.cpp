@@ -43,7 +43,11 @@ class OnWalk {
     using State = OnState;
 
     OnWalk(const ast::Program& program, const Plan& plan, const Symbols& symbols, Report& report)
-        : program_(program), plan_(plan), symbols_(symbols), report_(report) {}
+        : program_(program), plan_(plan), symbols_(symbols), report_(report) {
+        for (const StepPlan& step : plan.steps) {
+            for (const Rule& rule : step.rules) reset_somewhere_ |= rule.action.resets;
+        }
+    }
 
     void enter(OnState& state, const StepPlan& step, const Rule& rule) {
         step_ = &step;
@@ -60,8 +64,8 @@ class OnWalk {
         for_each_part(rule, [&](const Truth& when, Span condition) {
             if (!is_of_on(condition) && !needs_error(when)) return;
             for (std::size_t i = 0; i < kOutputCount; ++i) {
-                if (state.set_at[i].length == 0 || has_bit(rule.action.sets, i) ||
-                    is_reset_behind(*rule.action.next, i))
+                if (state.set_at[i].length == 0 || !has_bit(reset_somewhere_, i) ||
+                    has_bit(rule.action.sets, i) || is_reset_behind(*rule.action.next, i))
                     continue;
                 warn(i, state.set_at[i], condition);
             }
@@ -117,6 +121,7 @@ class OnWalk {
     const Plan& plan_;
     const Symbols& symbols_;
     Report& report_;
+    std::uint8_t reset_somewhere_ = 0;  ///< of others W024 tells
     const StepPlan* step_ = nullptr;
     std::set<std::pair<std::uint32_t, std::size_t>> said_;
 };

@@ -60,10 +60,12 @@ class AwayWalk {
     static void apply(AwayState& state, const Send& send) {
         const MotionEffect effect = motion_effect_of(send);
         if (moves(effect)) state.fnc_is_0 = false;
-        if (effect == MotionEffect::run || effect == MotionEffect::drive) state.ran = send.span;
-        if (effect == MotionEffect::drive) state.cleared = {};
-        state.searches = effect == MotionEffect::drive || (state.searches && effect == MotionEffect::none);
-        if (effect == MotionEffect::drive) state.soll_is_0 = true;
+        if (effect == MotionEffect::run || outlasts_stop(effect)) state.ran = send.span;
+        if (effect == MotionEffect::init || moves(effect)) state.searches = effect == MotionEffect::home;
+        if (effect == MotionEffect::home) {
+            state.cleared = {};
+            state.soll_is_0 = true;
+        }
         if (send.reg != nullptr) return apply_write(state, send);
         if (const auto select = select_command(send.command)) {
             if (select->selection.group != Group::p) return;

@@ -87,17 +87,21 @@ class Restart {
         for (const Exit& exit : exits) judge(exit, motion_behind(exit), {});
     }
 
+    /// A guard that orders a move itself holds nothing back.
     void after_guard(const ast::OnCondition& on) {
         Images on_images;
         Reached entered;
-        for_each_entry(on, [&](const Truth& when, std::uint8_t next) {
+        bool moves_itself = false;
+        for_each_entry(on, [&](const Truth& when, const Rule& rule) {
             const Images images = images_of(when, false);
+            const std::uint8_t next = *rule.action.next;
+            moves_itself = moves_itself || motion_of(rule) != nullptr;
             on_images |= images;
             entered.at(next) |= images;
             here_ = steps_.at(next)->span;
         });
         const std::size_t asked = inputs_of(on_images);
-        if (asked == 0 || here_ == fault_span_) return;
+        if (asked == 0 || moves_itself || here_ == fault_span_) return;
         Moved while_on;
         for (const Exit& exit : exits_of(entered)) {
             const Moved motion = motion_behind(exit);
@@ -118,7 +122,7 @@ class Restart {
     void at_power_up() {
         Images guarded;
         for (const ast::OnCondition& on : program_.on_conditions)
-            for_each_entry(on, [&](const Truth& when, std::uint8_t) { guarded |= images_of(when, false); });
+            for_each_entry(on, [&](const Truth& when, const Rule&) { guarded |= images_of(when, false); });
         if (steps_.front() == nullptr) return;
         here_ = {};
         Exit exit{};
@@ -156,7 +160,7 @@ class Restart {
             for (const Rule& rule : step.rules) {
                 if (!rule.action.next || steps_.at(*rule.action.next) == nullptr) continue;
                 for_each_part(rule, [&](const Truth& when, Span condition) {
-                    if (condition == on.condition.span) visit(when, *rule.action.next);
+                    if (condition == on.condition.span) visit(when, rule);
                 });
             }
         }
