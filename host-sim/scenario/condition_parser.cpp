@@ -155,17 +155,26 @@ void ConditionParser::quantity(Condition& condition) {
     const Measure wanted = measure("a number", kind);
     condition.operand = wanted.value;
     condition.unit = wanted.unit;
-    if (!reader_.take("+-")) return;
+    if (!reader_.take("+-")) return want_unit(kind, wanted);
     if (condition.relation != Relation::equal) reader_.refuse("a tolerance (+-) goes with = only");
     const Measure tolerance = measure("a number after +-", kind);
     condition.tolerance = tolerance.value;
     if (tolerance.value < 0) reader_.refuse("a tolerance is not negative; write it without the sign");
     if (wanted.unit.name.empty()) {
+        if (tolerance.unit.name.empty()) want_unit(kind, wanted);
         condition.unit = tolerance.unit;
     } else if (tolerance.unit.name.empty()) {
         reader_.refuse(fmt::format("the tolerance has no unit; write {} behind it, or {}", wanted.unit.name,
                                    units_in_words(kind, names_)));
     }
+}
+
+void ConditionParser::want_unit(Value::Kind kind, const Measure& measure) const {
+    if (!names_.machine || measure.value == 0 || !measure.unit.name.empty() || kind == Value::Kind::torque ||
+        units_of(kind, names_).empty())
+        return;
+    reader_.refuse(fmt::format("{:.6g} of what? The program has a SCALE; write {} behind it", measure.value,
+                               units_in_words(kind, names_)));
 }
 
 ConditionParser::Measure ConditionParser::measure(std::string_view what, Value::Kind kind) {

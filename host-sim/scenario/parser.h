@@ -121,14 +121,16 @@ class ConditionParser {
     Condition order();
     Value value();
     void operand(Condition& condition);
-    void quantity(Condition& condition);
-    double step_number();
-    void check_step(unsigned number) const;
-    Condition group();
     struct Measure {
         double value;  ///< in the value's own unit
         Unit unit;
     };
+    void quantity(Condition& condition);
+    /// A number that may be counts or the machine's unit says which.
+    void want_unit(Value::Kind kind, const Measure& measure) const;
+    double step_number();
+    void check_step(unsigned number) const;
+    Condition group();
     Measure measure(std::string_view what, Value::Kind kind);
     bool take_unit(std::string_view name);
     [[noreturn]] void refuse_unit(Value::Kind kind);

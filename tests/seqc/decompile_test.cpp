@@ -193,6 +193,33 @@ TEST(Decompile, RatesInTheUnitOfTheScale) {
     EXPECT_EQ(test::codes(compile(result.text)), "");
 }
 
+// 7 rev = 10 mm: 3333 counts are 1.162458 mm. To a place that is good enough, relative moves would add up
+// what is lost (W030).
+TEST(Decompile, DistancesOfRelativeMovesAreExact) {
+    const auto source = [](const std::string& positions) {
+        return "PROGRAM P\nMOTOR MAC140;\nSCALE 7 rev = 10 mm;\n"
+               "VAR_MOTOR One AT P1 := 3333 counts; Two AT P2 := 20 mm; Fast AT V1 := 25 mm/s; END_VAR\n"
+               "POWER_UP INIT(Fast); " +
+               positions +
+               "; NEXT := Idle; END_POWER_UP\n"
+               "STEP Idle: OWN ERROR; IF IN0 THEN POSITION(One); NEXT := Work; END_IF END_STEP\n"
+               "STEP Work: OWN ERROR; IF INPOS AND NOT IN0 THEN POSITION(Two); NEXT := Idle; END_IF "
+               "END_STEP\n"
+               "END_PROGRAM\n";
+    };
+    for (const auto& [positions, one] :
+         {std::pair("POSITIONS_ABSOLUTE", "One AT P1 := 1.1625 mm;"),
+          std::pair("POSITIONS_RELATIVE_P_SOLL", "One AT P1 := 3333 counts; // 1.1625 mm")}) {
+        const Compilation program = compile(source(positions));
+        ASSERT_TRUE(program.ok) << test::shown(program, positions);
+        const DecompileOptions options{.origin = {}, .motor = {}, .symbols = &program.symbols};
+        const Decompilation result = decompiled(program.table, options);
+        for (const char* part : {one, "Two AT P2 := 20 mm;"})
+            EXPECT_TRUE(has(result, part)) << part << " in " << result.text;
+        EXPECT_EQ(test::codes(compile(result.text)), test::codes(program));
+    }
+}
+
 // 001 §6.1: one term of step 0, NEXT 1, and a term of step 1.
 TEST(Decompile, WhatHasNoWordsIsBytesWithTheReason) {
     struct Row {

@@ -79,7 +79,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         expect not step in working or step in Idle at 2 s
         expect step = Idle for pause at Pause
         once IN1 rises after Pause IN2 := 1 for pause
-        once P_IST > 4096 IN2 := 1
+        once P_IST > 4096 counts IN2 := 1
         when P_IST = -1.5 rev +- 2 counts IN2 := 1
         when step changes log "step"
         when ordered "POSITION(P2)" after 10 ms IN3 := 1
@@ -253,6 +253,15 @@ TEST(ScenarioParser, MistakesInUnits) {
               "25: the tolerance has no unit; write mm behind it, or counts, rev or mm");
     EXPECT_EQ(at_column("expect COUNTER = 5 mm"), "20: COUNTER has no unit; write the number alone");
     EXPECT_EQ(at_column("expect TORQUE = 5 Nm"), "19: \"Nm\" is no unit of TORQUE; write %");
+    EXPECT_EQ(at_column("expect P_IST > 100"),
+              "16: 100 of what? The program has a SCALE; write counts, rev or mm behind it");
+    EXPECT_EQ(
+        at_column("expect V_IST = -1.5 +- 1 and Grip"),
+        "24: -1.5 of what? The program has a SCALE; write counts, rpm, rev/s, mm/s or mm/min behind it");
+    for (const char* with : {"P_IST = 0", "V_IST > 0", "P_IST = 0 +- 1 mm", "P_IST = 5 +- 1 counts",
+                             "COUNTER = 5", "TORQUE > 5"})
+        EXPECT_TRUE(parse(std::string("expect ") + with).mistakes.empty()) << with;
+    EXPECT_TRUE(parse_scenario("expect P_IST > 100", "x.scn", Names{}).mistakes.empty());
     const auto scaleless = parse_scenario("motor stop above 80 mm", "x.scn", Names{});
     ASSERT_EQ(scaleless.mistakes.size(), 1U);
     EXPECT_EQ(scaleless.mistakes[0].message,

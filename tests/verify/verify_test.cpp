@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seqc/properties.h"
@@ -146,9 +148,49 @@ TEST(Verify, AProofOfNothingIsToldFromOne) {
         EXPECT_EQ(result.verdict, Verdict::proved) << something;
         EXPECT_FALSE(result.vacuous) << something;
     }
+    for (const auto& [nothing, why] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"NEVER step = 40", "it asks for a step that the table does not have"},
+             {"NEVER OUT0 AND NOT OUT0",
+              "its condition contradicts itself, and never holds whatever the machine does"},
+             {"NEVER step = 0 AND step = 1",
+              "its condition contradicts itself, and never holds whatever the machine does"},
+             {"ALWAYS OUT0 OR NOT OUT0", "its condition always holds, whatever the machine does"},
+             {"NEVER IN0 AND OUT2", "OUT2 never holds by itself"}}) {
+        const Result result = either.judge(nothing, Assume::driver);
+        EXPECT_EQ(result.verdict, Verdict::proved) << nothing;
+        EXPECT_EQ(result.reason, std::string("but it says nothing: ") + why) << nothing;
+    }
+    for (const char* something : {"NEVER OUT2", "NEVER step = 1 AND OUT0"}) {
+        EXPECT_EQ(either.verdict(something, Assume::driver), Verdict::proved) << something;
+        EXPECT_FALSE(either.judge(something, Assume::driver).vacuous) << something;
+    }
     either.assuming("ASSUME NEVER IN0;");
+    EXPECT_EQ(either.judge("NEVER OUT1 AND step = 1", Assume::driver).reason,
+              "but it says nothing: OUT1 never holds by itself under the assumptions");
     EXPECT_TRUE(either.judge("NEVER OUT1 AND IN0", Assume::driver).vacuous);
     EXPECT_FALSE(either.judge("NEVER OUT1", Assume::driver).vacuous);
+}
+
+TEST(Verify, InputsThatKeepTheirLevelsLeaveWhatIsAlwaysPossible) {
+    // IN0 leads from 0 to 1, and IN0 off back.
+    Bench there{{kAny, 1, 1, 1, 2}, {kAny | 1, 0, 1, 0, 1}};
+    for (const char* input : {"IN3 STABLE FOR 20 ms", "IN0 STABLE FOR 2 ms", "IN0 STABLE FOR 3600 s"}) {
+        there.assuming(std::string("ASSUME NEVER ERROR; ASSUME ") + input + ";");
+        EXPECT_EQ(there.verdict("ALWAYS POSSIBLE step = 0", Assume::driver), Verdict::proved) << input;
+    }
+    // Steps 1 and 2 go to and fro as long as IN0 is on, so that no scan does nothing.
+    Bench busy{{kAny, 1, 1, 1, 2},
+               {kAny | 1, 1, 1, 2, 2},
+               {kAny | 1, 0, 1, 0, 1},
+               {kAny | 2, 1, 1, 1, 2},
+               {kAny | 2, 0, 1, 0, 1}};
+    busy.assuming("ASSUME NEVER ERROR;");
+    EXPECT_EQ(busy.verdict("ALWAYS POSSIBLE step = 0", Assume::driver), Verdict::proved);
+    busy.assuming("ASSUME NEVER ERROR; ASSUME IN0 STABLE FOR 20 ms;");
+    const Result open = busy.judge("ALWAYS POSSIBLE step = 0", Assume::driver);
+    EXPECT_EQ(open.verdict, Verdict::undecided);
+    EXPECT_NE(open.reason.find("; without ASSUME IN0 STABLE FOR 20 ms it is proved"), std::string::npos)
+        << open.reason;
 }
 
 TEST(Verify, DeadlinesKnowTheTimer) {

@@ -98,7 +98,7 @@ void check_motor_is_named(const ast::Program& program, const Plan& plan, Report&
                "write MOTOR MAC140; or which one is on its line");
 }
 
-/// Advice that is allowed within a step, between its first word and its END_STEP.
+/// Advice that a step or POWER_UP allows: what stands between its first word and its end.
 bool is_allowed(const ast::Program& program, const Diagnostic& d) {
     const auto allows = [&](const ast::Step& step) {
         return std::any_of(
@@ -110,11 +110,13 @@ bool is_allowed(const ast::Program& program, const Diagnostic& d) {
                             return span.offset >= block.span.offset &&
                                    span.offset < block.span.offset + block.span.length;
                         };
-                        return block.end_word == "END_STEP" && holds(d.span) && holds(allowance.code.span);
+                        return (block.end_word == "END_STEP" || block.end_word == "END_POWER_UP") &&
+                               holds(d.span) && holds(allowance.code.span);
                     });
             });
     };
-    return is_advice(d.code) && std::any_of(program.steps.begin(), program.steps.end(), allows);
+    return is_advice(d.code) && (std::any_of(program.steps.begin(), program.steps.end(), allows) ||
+                                 (program.power_up && allows(*program.power_up)));
 }
 
 void collect_allowances(const ast::Program& program, const Plan& plan, Compilation& result) {
@@ -187,9 +189,11 @@ void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, c
     check_lasting_selections(plan, symbols, sources.text(), checks);
     check_standing_in_position(plan, checks);
     if (symbols.drive == nullptr) check_lasting_motion(plan, sources.text(), checks);
-    check_known_places(plan, symbols, sources.text(), checks);
+    check_known_places(plan, symbols, scope.set_points(), sources.text(), checks);
     check_restart(program, plan, scope, checks);
-    check_arrivals(plan, checks);
+    check_guards(program, plan, scope, checks);
+    check_arrivals(program, plan, checks);
+    if (symbols.drive == nullptr) check_moved_away(plan, checks);
     if (symbols.drive == nullptr) return;
     check_drive_motion(plan, *symbols.drive, scope.set_points(), checks, result.roundings);
     check_drive_registers(plan, *symbols.drive, checks);
@@ -228,6 +232,7 @@ Compilation compile(const Sources& sources) {
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
     if (syntax_sound && !checks.has_errors()) check_shared_timer(plan, checks);
+    if (syntax_sound && !checks.has_errors()) check_left_on(program, plan, result.symbols, checks);
     if (syntax_sound && !checks.has_errors()) make_copies(plan, result, checks);
     if (syntax_sound && !checks.has_errors()) make_helper_steps(plan, result, checks);
     name_origins(program, scope, result);

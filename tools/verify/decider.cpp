@@ -22,7 +22,8 @@ constexpr const char* kNoTimes =
 constexpr const char* kNotSurely =
     "a course leads there from each state if timer and inputs are left free; whether one does with their "
     "times "
-    "was not found (--assume any leaves such times out)";
+    "was not found";
+constexpr const char* kLeavesTimesOut = " (--assume any leaves such times out)";
 
 }  // namespace
 
@@ -42,6 +43,10 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
     if (options.assume == Assume::driver) stable_ms_.fill(options.debounce_ms);
     for (const Assumption& assumption : options.assumptions)
         stable_ms_[assumption.input] = std::max(stable_ms_[assumption.input], assumption.stable_ms);
+    // What surely.h reckons with holds for 3 ms of debounce, and for each time of the driver's.
+    const std::uint32_t each_ms = options.assume == Assume::driver ? options.debounce_ms : 3;
+    for (std::size_t input = 0; input < stable_ms_.size(); ++input)
+        held_ |= static_cast<std::uint8_t>(stable_ms_[input] > each_ms ? 1U << input : 0U);
     coarse_ = std::make_unique<Explorer>(
         machine, Precision{.knows_lost_link = true, .keeps_edges = true, .most_states = options.most_states});
     coarse_->explore(targets_);
@@ -107,7 +112,7 @@ Decider::Finding Decider::or_tried(Finding open, const Explorer& explorer, const
 }
 
 bool Decider::is_reached_with_all(std::size_t target) const {
-    return !has_ranges() || (coarse_->has_all_edges() && surely_reached(*coarse_, targets_[target]));
+    return !has_ranges() || (coarse_->has_all_edges() && surely_reached(*coarse_, targets_[target], held_));
 }
 
 const Explorer& Decider::fine() {
@@ -228,6 +233,20 @@ bool Decider::assumes_stable_inputs() const {
                        [](const Assumption& assumption) { return assumption.stable_ms != 0; });
 }
 
+std::string Decider::why_not_surely(const Target& target, const Explorer::Scans* only) const {
+    std::string why = kNotSurely;
+    if (held_ != 0 && surely_possible(*coarse_, target, 0, only)) {
+        std::string assumptions;
+        for (const Assumption& assumption : options_.assumptions) {
+            if (assumption.stable_ms == 0 || ((held_ >> assumption.input) & 1U) == 0) continue;
+            assumptions += (assumptions.empty() ? "" : " and ") + assumption.text;
+        }
+        return fmt::format("{}; without {} it is proved", why, assumptions);
+    }
+    if (options_.assume == Assume::driver) why += kLeavesTimesOut;
+    return why;
+}
+
 Decider::Finding Decider::stuck_outside(std::size_t index) {
     Explorer::Stuck stuck;
     Finding open = explored_stuck(targets_[index], stuck);
@@ -245,9 +264,8 @@ Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& 
         const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs() &&
                               machine_.move_ms() == 0 && !has_ranges();
         if (is_exact) return {.answer = Answer::cannot_be};
-        if (!assumes_stable_inputs() && surely_possible(*coarse_, target))
-            return {.answer = Answer::cannot_be};
-        return {.why = kNotSurely};
+        if (surely_possible(*coarse_, target, held_)) return {.answer = Answer::cannot_be};
+        return {.why = why_not_surely(target)};
     }
     if (auto played = realized(coarse_->course_to(stuck)))
         return {.answer = Answer::can_be, .played = std::move(played)};
@@ -256,9 +274,8 @@ Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& 
     const Explorer::Scans scans = exact.scans();
     stuck = coarse_->first_stuck(target, distances, &scans);
     if (stuck.node == Explorer::kNone) {
-        if (!assumes_stable_inputs() && surely_possible(*coarse_, target, &scans))
-            return {.answer = Answer::cannot_be};
-        return {.why = kNotSurely};
+        if (surely_possible(*coarse_, target, held_, &scans)) return {.answer = Answer::cannot_be};
+        return {.why = why_not_surely(target, &scans)};
     }
     const Explorer::Stuck there = exact.same_scan(coarse_->place(stuck.node), stuck);
     if (auto played = realized(exact.course_to(there)))

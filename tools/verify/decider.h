@@ -67,6 +67,8 @@ class Decider {
     const Explorer& fine();
     const Explorer& punctual();
     bool assumes_stable_inputs() const;
+    /// Why ALWAYS POSSIBLE is open, with the assumption that makes it so.
+    std::string why_not_surely(const Target& target, const Explorer::Scans* only = nullptr) const;
     bool has_ranges() const { return !machine_.ranges().timer.empty() || machine_.has_counter_ranges(); }
 
     const sequencer::Table& table_;
@@ -77,6 +79,7 @@ class Decider {
     std::unique_ptr<Explorer> fine_;
     std::unique_ptr<Explorer> punctual_;  ///< as coarse, and no scan waits for a line that comes back
     std::array<std::uint32_t, 6> stable_ms_{};
+    std::uint8_t held_ = 0;  ///< inputs that are assumed to keep their levels longer than each does anyway
 };
 
 }  // namespace nplc::verify

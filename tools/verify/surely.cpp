@@ -1,5 +1,6 @@
 #include "surely.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,9 +23,23 @@ Levels levels_of(const ImageSet& images, bool lost) {
     return levels;
 }
 
-/// How long the inputs have kept their levels: not at all, 2 ms, as long as the debounce time.
-constexpr std::size_t kAges = 3;
+/// With every level of the inputs in `free`.
+Levels with_free(Levels levels, std::uint8_t free) {
+    constexpr std::array<Levels, 6> kOn = {0xAAAAAAAAAAAAAAAA, 0xCCCCCCCCCCCCCCCC, 0xF0F0F0F0F0F0F0F0,
+                                           0xFF00FF00FF00FF00, 0xFFFF0000FFFF0000, 0xFFFFFFFF00000000};
+    for (unsigned input = 0; input < kOn.size(); ++input) {
+        if (((free >> input) & 1U) == 0) continue;
+        const unsigned apart = 1U << input;
+        levels |= ((levels & kOn[input]) >> apart) | ((levels & ~kOn[input]) << apart);
+    }
+    return levels;
+}
+
+/// How long the inputs have kept their levels: not at all, 2 ms, as long as the debounce time, as long as any
+/// input must.
+constexpr std::size_t kAges = 4;
 constexpr std::size_t kSteady = 2;
+constexpr std::size_t kLong = 3;
 constexpr std::uint32_t kSteadyMs = 3;
 
 /// A kind of scan, wherever it begins.
@@ -62,9 +77,10 @@ struct OtherCount {
 
 class Search {
   public:
-    Search(const Explorer& ways, const Target& target)
+    Search(const Explorer& ways, const Target& target, std::uint8_t held)
         : ways_(ways),
           target_(target),
+          held_(held),
           kind_numbers_(2 * Explorer::kSurroundings * ways.machine().all_groups().size()),
           can_(ways.size()) {
         choices_.reserve(ways.edges().size());
@@ -79,7 +95,7 @@ class Search {
     bool can_from_power_up() {
         while (sweep()) {
         }
-        return can_[0][kSteady] != 0;
+        return can_[0][oldest()] != 0;
     }
 
     bool all_can(const Explorer::Scans* only) {
@@ -169,7 +185,7 @@ class Search {
     }
 
     Levels after(const ScanKind& c, bool idle, const Landing& landing, std::size_t age) const {
-        if (idle) return can(landing.zero, kSteady);
+        if (idle) return can(landing.zero, oldest());
         const bool runs = landing.running != Explorer::kNone;
         const auto later = [&](std::uint32_t delay, std::size_t then, bool sure) {
             if (!runs) return can(landing.zero, then);
@@ -181,28 +197,38 @@ class Search {
         };
         if (c.sends) {
             if (c.error) return later(c.least, age, c.preset > c.least);
-            const std::size_t then = c.least >= kSteadyMs ? kSteady : c.least >= 2 ? next_age(age) : age;
+            const std::size_t then = c.least >= kSteadyMs ? std::max(age, kSteady)
+                                     : c.least >= 2       ? next_age(age)
+                                                          : age;
             return later(c.least, then, true);
         }
         return later(0, age, true) | later(Machine::kMostIdle, next_age(age), true);
     }
 
-    static std::size_t next_age(std::size_t age) { return age < kSteady ? age + 1 : kSteady; }
+    static std::size_t next_age(std::size_t age) { return age < kSteady ? age + 1 : age; }
+
+    std::size_t oldest() const { return held_ == 0 ? kSteady : kLong; }
+
+    /// The inputs that may change then.
+    std::uint8_t free_at(std::size_t age) const {
+        if (age < kSteady) return 0;
+        return static_cast<std::uint8_t>(sequencer::kInputsMask & (age == kLong ? 0xFFU : ~unsigned{held_}));
+    }
 
     bool sweep() {
         bool changed = false;
         for (std::size_t node = can_.size(); node-- > 0;) {
             const auto own = std::span(choices_).subspan(first_choice_[node],
                                                          first_choice_[node + 1] - first_choice_[node]);
-            for (std::size_t age = 0; age < kAges; ++age) {
+            for (std::size_t age = 0; age <= oldest(); ++age) {
                 Levels levels = can_[node][age];
                 if (levels == kAll) continue;
                 for (const Choice& choice : own) {
                     if (choice.unsure) continue;
                     const ScanKind& kind = kinds_[choice.kind];
                     levels |= kind.hits | (kind.levels & after(choice, age));
-                    const bool free = age == kSteady;
-                    if (free && (kind.hits != 0 || (kind.levels & after(choice, 0)) != 0)) levels = kAll;
+                    const std::uint8_t free = free_at(age);
+                    if (free != 0) levels |= with_free(kind.hits | (kind.levels & after(choice, 0)), free);
                     if (levels == kAll) break;
                 }
                 if (levels == can_[node][age]) continue;
@@ -217,6 +243,7 @@ class Search {
 
     const Explorer& ways_;
     const Target& target_;
+    std::uint8_t held_;
     std::vector<std::uint32_t> kind_numbers_;  ///< and 1, by group, surroundings and lost; 0 for none yet
     std::vector<ScanKind> kinds_;
     std::vector<Choice> choices_;
@@ -227,12 +254,13 @@ class Search {
 
 }  // namespace
 
-bool surely_possible(const Explorer& ways, const Target& target, const Explorer::Scans* only) {
-    return Search(ways, target).all_can(only);
+bool surely_possible(const Explorer& ways, const Target& target, std::uint8_t held,
+                     const Explorer::Scans* only) {
+    return Search(ways, target, held).all_can(only);
 }
 
-bool surely_reached(const Explorer& ways, const Target& target) {
-    return Search(ways, target).can_from_power_up();
+bool surely_reached(const Explorer& ways, const Target& target, std::uint8_t held) {
+    return Search(ways, target, held).can_from_power_up();
 }
 
 }  // namespace nplc::verify

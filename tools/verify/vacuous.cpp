@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <numeric>
 #include <string_view>
+#include <vector>
 
 #include "monitor.h"
 
@@ -24,6 +26,23 @@ std::string part_of(const std::string& text, std::string_view begin,
     std::size_t to = text.size();
     for (const std::string_view end : ends) to = std::min(to, upper.find(end, from));
     return text.substr(from, to - from);
+}
+
+/// Part `number` of `count` that AND joins in a NEVER, as written if it stands there without parentheses.
+std::string part_in_words(const std::string& text, std::size_t number, std::size_t count) {
+    std::string rest = part_of(text, "NEVER ", {});
+    std::vector<std::string> parts;
+    std::string upper = rest;
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::size_t from = 0;
+    for (std::size_t at = upper.find(" AND "); at != std::string::npos; at = upper.find(" AND ", from)) {
+        parts.push_back(rest.substr(from, at - from));
+        from = at + std::string_view(" AND ").size();
+    }
+    parts.push_back(rest.substr(from));
+    const bool is_plain = rest.find('(') == std::string::npos && parts.size() == count;
+    return is_plain ? parts[number] : "one part of its condition";
 }
 
 std::string never_holds(const Property& property) {
@@ -58,11 +77,22 @@ Property unfulfilled(Property property) {
     return property;
 }
 
-/// Whether the assumptions about inputs alone prove a NEVER or an ALWAYS, for any table.
-bool is_ruled_out(const Machine& machine, const Property& property) {
-    if (machine.permitted().all()) return false;
+/// The steps that the table has, or can go to.
+std::uint64_t steps_of(const Machine& machine) {
+    std::uint64_t steps = machine.steps_with_terms() | 1U;
+    for (const Group& group : machine.all_groups()) {
+        if (group.pending.next_step != sequencer::kNoSwitch)
+            steps |= std::uint64_t{1} << group.pending.next_step;
+    }
+    return steps;
+}
+
+/// Why nothing can break a NEVER or an ALWAYS, whatever is in the table's steps; empty if something can.
+std::string why_ruled_out(const Machine& machine, const Property& property) {
     const Target target{.condition = &property.condition, .negated = property.form == Form::always};
-    bool is_there_without = false;
+    const std::uint64_t steps = steps_of(machine);
+    bool is_there_in_a_step = false;
+    bool is_there = false;
     for (unsigned number = 0; number < 64U * 128U; ++number) {
         const View view{.step = static_cast<std::uint8_t>(number % 64U),
                         .outputs = static_cast<std::uint8_t>(number / 64U % 16U),
@@ -70,10 +100,41 @@ bool is_ruled_out(const Machine& machine, const Property& property) {
                         .counter_zero = (number & 2048U) != 0,
                         .moving = (number & 4096U) != 0};
         const ImageSet images = target.images(view);
-        if ((images & machine.permitted()).any()) return false;
-        is_there_without = is_there_without || images.any();
+        is_there = is_there || images.any();
+        if (images.none() || ((steps >> view.step) & 1U) == 0) continue;
+        is_there_in_a_step = true;
+        if ((images & machine.permitted()).any()) return "";
     }
-    return is_there_without;
+    if (is_there_in_a_step) return "the assumptions about inputs alone rule it out";
+    if (is_there) return "it asks for a step that the table does not have";
+    return property.form == Form::always
+               ? "its condition always holds, whatever the machine does"
+               : "its condition contradicts itself, and never holds whatever the machine does";
+}
+
+void add_parts(const Condition& condition, std::vector<const Condition*>& parts) {
+    if (condition.kind != Condition::Kind::all_of) return parts.push_back(&condition);
+    for (const Condition& operand : condition.operands) add_parts(operand, parts);
+}
+
+/// The first part of a NEVER's AND that never holds by itself, in words; empty if there is none.
+std::string part_that_never_holds(const Explorer& explorer, const Property& property) {
+    std::vector<const Condition*> parts;
+    add_parts(property.condition, parts);
+    if (parts.size() < 2 || !explorer.has_all_edges()) return "";
+    std::vector<std::size_t> open(parts.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    for (const Explorer::Edge& edge : explorer.edges()) {
+        if (open.empty()) return "";
+        const View view = explorer.view_after(explorer.place(edge.from), explorer.group_of(edge));
+        const ImageSet images = explorer.images_of(edge);
+        std::erase_if(open,
+                      [&](std::size_t part) { return (images & images_where(*parts[part], view)).any(); });
+    }
+    if (open.empty()) return "";
+    const bool by_assumption = !explorer.machine().permitted().all();
+    return fmt::format("{} never holds by itself{}", part_in_words(property.text, open.front(), parts.size()),
+                       by_assumption ? " under the assumptions" : "");
 }
 
 }  // namespace
@@ -93,9 +154,8 @@ std::string why_vacuous(const Explorer& explorer, const Property& property, bool
             if (property.is_implied) return is_met || !explorer.complete() ? "" : never_holds(property);
             [[fallthrough]];
         case Form::always:
-            return is_ruled_out(explorer.machine(), property)
-                       ? "the assumptions about inputs alone rule it out"
-                       : "";
+            if (std::string why = why_ruled_out(explorer.machine(), property); !why.empty()) return why;
+            return property.form == Form::never ? part_that_never_holds(explorer, property) : "";
         case Form::whenever:
         case Form::never_while:
         case Form::after_possible:

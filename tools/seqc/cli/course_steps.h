@@ -15,7 +15,9 @@ struct StepChange {
     std::string time;  ///< in milliseconds, as printed
     std::string from;
     std::string to;
-    bool gets_in_pos = false;  ///< INPOS became 1 in that step; for courses only
+    bool gets_in_pos = false;    ///< INPOS became 1 in that step; this and what follows for courses only
+    bool has_in_pos = false;     ///< INPOS was 1 when it was left
+    std::uint16_t limit_ms = 0;  ///< of a move to a place that began with the step; 0: none
 };
 using CourseSteps = std::vector<StepChange>;
 
@@ -23,7 +25,11 @@ CourseSteps steps_of(const verify::Course& course, const verify::Names& names);
 /// Parses the output of nanoplc-sim run.
 CourseSteps steps_in_timeline(std::string_view printed);
 
-/// Describes where a rehearsal deviates from its course.
-std::string where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsal);
+struct Deviation {
+    std::string where;
+    bool by_motor =
+        false;  ///< INPOS comes otherwise than in the course, and no time limit is too short for it
+};
+Deviation where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsal);
 
 }  // namespace nplc::seqc::cli

@@ -32,7 +32,7 @@ host::Ran run_player(const std::vector<std::string>& arguments, const std::strin
 
 /// Played before it is written, in a separate program with the simulated gateway.
 Play play_scenario(const InputFile& program, const std::string& file, const std::string& text,
-                   const CourseSteps& steps) {
+                   const CourseSteps& steps, bool has_plant) {
     std::vector<std::string> arguments = {"run", program.file, "--scenario", "/dev/stdin"};
     if (!program.symbols.empty()) arguments.insert(arguments.end(), {"--symbols", program.symbols});
     const host::Ran ran = run_player(arguments, text);
@@ -40,8 +40,12 @@ Play play_scenario(const InputFile& program, const std::string& file, const std:
         return {file, Played::not_at_all, "nanoplc-sim was not found beside seqc or on the path"};
     if (!ran.problem.empty()) return {file, Played::not_at_all, ran.problem};
     if (ran.status == 0) return {file, Played::to_the_end, {}};
-    if (ran.status == 1)
-        return {file, Played::otherwise, where_it_leaves(steps, steps_in_timeline(ran.output))};
+    if (ran.status == 1) {
+        Deviation leaves = where_it_leaves(steps, steps_in_timeline(ran.output));
+        if (leaves.by_motor && !has_plant)
+            leaves.where += "; for hard stops, a load or a plant of the machine's there is --plant FILE";
+        return {file, Played::otherwise, std::move(leaves.where)};
+    }
     return {file, Played::not_at_all,
             fmt::format("nanoplc-sim refused it: {}", ran.errors.substr(0, ran.errors.find('\n')))};
 }
@@ -58,16 +62,14 @@ Rehearsed rehearsed(const verify::Result& result, const InputFile& program, cons
     const CourseSteps steps = steps_of(*result.course, names);
     verify::ScenarioOptions how{.plant = plant};
     std::string text = verify::scenario_of(result, names, how);
-    Play play = play_scenario(program, file, text, steps);
+    Play play = play_scenario(program, file, text, steps, !plant.empty());
     if (play.played != Played::otherwise) return {std::move(play), std::move(text)};
     how.changes_late = true;
     std::string later = verify::scenario_of(result, names, how);
     if (later != text) {
-        Play second = play_scenario(program, file, later, steps);
+        Play second = play_scenario(program, file, later, steps, !plant.empty());
         if (second.played == Played::to_the_end) return {std::move(second), std::move(later)};
     }
-    if (plant.empty())
-        play.why += "; for hard stops, a load or a plant of the machine's there is --plant FILE";
     text = fmt::format(
         "# The virtual motor cannot follow this course: {}.\n# With --stimulus it is written for "
         "nanoplc-sim scan, which always follows.\n{}",

@@ -93,6 +93,7 @@ class Decompiler {
         draft_ = drafter_.draft(exclusions);
         Naming naming = naming_of(exclusions.given_names ? nullptr : options_.symbols, stem(), motor_);
         naming.symbols.drive = drive_;
+        naming.exact_places = exact_places_;
         if (keeps_set_points_) {
             naming.symbols.set_points = options_.symbols->set_points;
             naming.set_points = naming.symbols.set_points.values;
@@ -102,8 +103,17 @@ class Decompiler {
         manuscript_ = write_program(layout_, draft_, context, head(naming));
         compilation_ = compile(manuscript_.text);
         result_.text = manuscript_.text;
-        return compilation_.ok &&
-               std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
+        if (!compilation_.ok ||
+            !std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end()))
+            return false;
+        if (exact_places_ || !adds_up_rounding()) return true;
+        exact_places_ = true;
+        return attempt(exclusions);
+    }
+
+    bool adds_up_rounding() const {
+        const auto& all = compilation_.diagnostics;
+        return std::any_of(all.begin(), all.end(), [](const Diagnostic& d) { return d.code == "W030"; });
     }
 
     /// The drive is dropped if the program with it would be refused for orders that the drive cannot do,
@@ -247,6 +257,7 @@ class Decompiler {
     const registers::DriveModel* drive_ = nullptr;
     std::string why_no_drive_;
     bool keeps_set_points_ = false;
+    bool exact_places_ = false;
     Drafter drafter_;
     Draft draft_;
     WrittenProgram manuscript_;

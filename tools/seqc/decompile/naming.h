@@ -23,6 +23,8 @@ struct Naming {
     std::map<std::uint8_t, std::string> registers{};  ///< given names of VAR_MOTOR, by number
     /// Set-points that are known to own every occurrence of their value in the table.
     std::vector<set_points::SetPoint> set_points{};
+    bool exact_places =
+        false;             ///< positions that SCALE rounds are written in counts: relative moves add it up
     bool made_up = false;  ///< steps, inputs and outputs have no given names
 
     /// The set-point whose default is at this place; null: a constant.

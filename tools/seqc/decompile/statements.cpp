@@ -70,7 +70,8 @@ Line write_line(const Send& send, const WriterContext& context) {
     if (const auto* point =
             context.naming.set_point(set_points::ValueKind::motor_register, send.reg->number, number))
         return {fmt::format("{} := {};", register_text(*send.reg, context), point->name), {}};
-    const ValueText value = value_text(*send.reg, send.value, context.naming.symbols);
+    const ValueText value =
+        value_text(*send.reg, send.value, context.naming.symbols, context.naming.exact_places);
     return {fmt::format("{} := {};", register_text(*send.reg, context), value.text), value.comment};
 }
 

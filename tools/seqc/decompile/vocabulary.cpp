@@ -109,6 +109,17 @@ std::string length_text(const Register& reg, std::int64_t number, const Symbols&
     return {};
 }
 
+/// What SCALE makes of the number has no short text that means exactly this number.
+bool is_rounded(const Register& reg, std::int64_t number, const Symbols& symbols) {
+    if (!symbols.scale) return false;
+    const LengthUnit unit{symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
+    const auto steps = raw_per_unit(reg, symbols.motor, unit, symbols.scale->unit);
+    const std::string length = length_text(reg, number, symbols);
+    constexpr double kRounding = 1e-6;  // counts, as of W030
+    return steps && (length.empty() ||
+                     std::fabs(std::stod(length) * *steps - static_cast<double>(number)) > kRounding);
+}
+
 }  // namespace
 
 std::string_view obstacle(sequencer::TermView bytes, Model model) {
@@ -124,10 +135,13 @@ Send send_of(const Term& term, Model model) {
     return {registers::find(model, term.flex.reg), 0, bits_of(term.flex), {}};
 }
 
-ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& symbols) {
+ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& symbols, bool exact_places) {
     const Model model = symbols.motor;
     const std::int64_t number = number_of(reg, bits);
-    if (const std::string length = length_text(reg, number, symbols); !length.empty()) return {length, {}};
+    const std::string length = length_text(reg, number, symbols);
+    if (exact_places && reg.unit == Unit::counts && is_rounded(reg, number, symbols))
+        return {fmt::format("{} counts", number), length};
+    if (!length.empty()) return {length, {}};
     if (const std::string_view name = registers::name_of_value(model, reg, bits); !name.empty())
         return {std::string(name), {}};
     const double steps_in_one = raw_per_unit(reg, model, std::nullopt, {}).value_or(1);

@@ -19,11 +19,12 @@ std::string_view obstacle(sequencer::TermView bytes, registers::Model model);
 Send send_of(const sequencer::Term& term, registers::Model model);
 
 /// A register's value as written in a program, and in a physical unit if it has one. With a SCALE that gives
-/// an exact length, positions are written in that unit.
+/// an exact length, positions are written in that unit; with `exact_places` in counts where it is rounded.
 struct ValueText {
     std::string text;
     std::string comment;  ///< "1500.1 rpm"; may be empty
 };
-ValueText value_text(const registers::Register& reg, std::uint32_t bits, const Symbols& symbols);
+ValueText value_text(const registers::Register& reg, std::uint32_t bits, const Symbols& symbols,
+                     bool exact_places);
 
 }  // namespace nplc::seqc

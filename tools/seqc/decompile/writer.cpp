@@ -128,7 +128,7 @@ class Writer {
             const Send& send = draft_.power_up->action.sends[i];
             unsaid.erase(send.reg->number);
             if (context_.naming.set_point_of(send.reg->number) != nullptr) continue;
-            const ValueText value = value_text(*send.reg, send.value, names());
+            const ValueText value = value_text(*send.reg, send.value, names(), context_.naming.exact_places);
             lines.push_back(
                 commented({fmt::format("{} := {};", declared(*send.reg), value.text), value.comment}));
         }

@@ -47,11 +47,13 @@ void check_home_mode(const Plan& plan, registers::Model model, Report& report);
 void check_lasting_selections(const Plan& plan, const Symbols& symbols, std::string_view source,
                               Report& report);
 
-/// Reports a fault step that is left without an operator's acknowledgement, if the motor may move then.
+/// Reports a fault step, or a step that a guard leads to, that is left without an operator's acknowledgement,
+/// if the motor may move then; and a motor that moves at power-up.
 void check_restart(const ast::Program& program, const Plan& plan, Scope& scope, Report& report);
 
-/// Reports branches that continue with INPOS or at the end of the timer, without distinguishing them.
-void check_arrivals(const Plan& plan, Report& report);
+/// Reports branches that continue with INPOS or at the end of the timer, without distinguishing them, and
+/// time limits whose branches are exchanged.
+void check_arrivals(const ast::Program& program, const Plan& plan, Report& report);
 
 /// Reports waits for an INPOS that is already 1.
 void check_standing_in_position(const Plan& plan, Report& report);
@@ -59,8 +61,20 @@ void check_standing_in_position(const Plan& plan, Report& report);
 /// A STOP in a homing or a torque mode, another target in position mode, a speed that takes up a move again.
 void check_lasting_motion(const Plan& plan, std::string_view source, Report& report);
 
-/// Moves to where the axis stands, and time limits that end before the move can.
-void check_known_places(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report);
+/// Reports moves to where the axis stands, and time limits that end before the move can. Set-points count
+/// with the ends of their ranges.
+void check_known_places(const Plan& plan, const Symbols& symbols, const std::vector<DeclaredSetPoint>& points,
+                        std::string_view source, Report& report);
+
+/// Reports steps that a guard leads to while the motor may move, and that do not stop it.
+void check_guards(const ast::Program& program, const Plan& plan, Scope& scope, Report& report);
+
+/// Reports outputs that SET switched on, that a guard or an ERROR leaves on and that nothing resets then. The
+/// plan is the one before make_copies.
+void check_left_on(const ast::Program& program, const Plan& plan, const Symbols& symbols, Report& report);
+
+/// Reports moves that begin at a P_SOLL or P_FNC that is not where the axis is.
+void check_moved_away(const Plan& plan, Report& report);
 
 /// Reports motor limits set by a program whose violation does not set ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);

@@ -10,6 +10,7 @@
 #include "registers/scale.h"
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/guards.h"
 #include "semantics/step_walk.h"
 #include "semantics/units.h"
 
@@ -20,13 +21,24 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
+/// The values that a register may have: a set-point's range, or one.
+struct Values {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+
+    bool operator==(const Values&) const = default;
+    bool is_one() const { return low == high; }
+};
+
 /// A value of P1..P8 that the axis was sent to.
-struct KnownPlace {
-    std::int64_t counts = 0;
+struct Place {
+    Values counts;
     Selection reg{};
     Span span;  ///< the order
 
-    bool operator==(const KnownPlace& other) const { return counts == other.counts; }
+    bool operator==(const Place& other) const {
+        return counts == other.counts && (counts.is_one() || reg.index == other.reg.index);
+    }
 };
 
 struct PlaceState {
@@ -34,8 +46,8 @@ struct PlaceState {
     bool anywhere = false;  ///< on some way the axis may stand at a place that is not in `standing`
     bool relative = false;
     bool idle = false;                   ///< on some way no move is under way
-    std::vector<KnownPlace> standing;    ///< where it may stand, by the ways that lead here
-    std::vector<KnownPlace> going;       ///< the moves that may be under way
+    std::vector<Place> standing;         ///< where it may stand, by the ways that lead here
+    std::vector<Place> going;            ///< the moves that may be under way
     std::vector<std::uint8_t> velocity;  ///< V1..V8, those that may be selected; 0: none of them
 
     bool is_known() const { return known; }
@@ -47,8 +59,8 @@ struct PlaceState {
         idle = idle || other.idle;
         anywhere = anywhere || other.anywhere;
         relative = relative || other.relative;
-        for (const KnownPlace& place : other.standing) news = add(standing, place) || news;
-        for (const KnownPlace& place : other.going) news = add(going, place) || news;
+        for (const Place& place : other.standing) news = add(standing, place) || news;
+        for (const Place& place : other.going) news = add(going, place) || news;
         for (const std::uint8_t index : other.velocity) news = add(velocity, index) || news;
         return news;
     }
@@ -73,8 +85,9 @@ class PlaceWalk {
   public:
     using State = PlaceState;
 
-    PlaceWalk(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report)
-        : plan_(plan), symbols_(symbols), source_(source), report_(report) {
+    PlaceWalk(const Plan& plan, const Symbols& symbols, const std::vector<DeclaredSetPoint>& points,
+              std::string_view source, Report& report)
+        : plan_(plan), symbols_(symbols), points_(points), source_(source), report_(report) {
         for_each_send(plan, [&](const Send& send) {
             const auto reg = send.reg == nullptr ? std::nullopt : selection_of(send.reg->number);
             if (reg) add_value(*reg, send);
@@ -90,7 +103,7 @@ class PlaceWalk {
             state.standing.clear();
             state.anywhere = false;
         }
-        for (const KnownPlace& place : std::exchange(state.going, {})) PlaceState::add(state.standing, place);
+        for (const Place& place : std::exchange(state.going, {})) PlaceState::add(state.standing, place);
         state.idle = true;
     }
 
@@ -113,45 +126,66 @@ class PlaceWalk {
         for (const Send& send : rule.action.sends) {
             const PlaceState before = state;
             apply(state, send);
-            const bool is_move = state.going.size() == 1 && state.going.front().span == send.span;
-            if (!is_move || !before.going.empty()) continue;
-            judge_standing(before, state.going.front());
+            const std::optional<Place> to = move_of(send);
+            if (!to) continue;
             // A velocity that is named behind the place counts for this move too.
             PlaceState after = state;
             for (const Send& later : rule.action.sends) {
                 if (later.span == send.span) apply_velocity(after, later);
             }
-            judge_limit(rule, before, after);
+            if (waits_with_limit(rule)) judge_limit(rule, before, *to, after.velocity);
+            if (!before.relative && before.going.empty()) judge_standing(before, *to);
         }
     }
 
   private:
+    static constexpr std::int64_t kInPositionMs = 10;
+
+    struct Least {
+        double seconds = 0;
+        bool is_one = true;  ///< the velocity is no range
+    };
+
     struct Value {
         Selection reg{};
-        std::int64_t value = 0;
-        bool is_one = true;  ///< the program gives it this value alone
+        Values values;
+        bool is_one = true;  ///< the program gives it nothing else
     };
 
     void add_value(Selection reg, const Send& send) {
-        const std::int64_t value = static_cast<std::int32_t>(send.value);
+        const Values values = range_of(send);
         for (Value& known : values_) {
             if (known.reg.group != reg.group || known.reg.index != reg.index) continue;
-            known.is_one = known.is_one && known.value == value && send.set_point == 0;
+            known.is_one = known.is_one && known.values == values;
             return;
         }
-        values_.push_back({reg, value, send.set_point == 0});
+        values_.push_back({reg, values});
     }
 
-    std::optional<std::int64_t> value_of(Group group, std::uint8_t index) const {
+    Values range_of(const Send& send) const {
+        const auto number = [](std::uint32_t bits) { return std::int64_t{static_cast<std::int32_t>(bits)}; };
+        if (send.set_point == 0) return {number(send.value), number(send.value)};
+        const set_points::SetPoint& point = points_[send.set_point - 1U].point;
+        return {number(bits_of(point.lowest, *send.reg)), number(bits_of(point.highest, *send.reg))};
+    }
+
+    std::optional<Values> value_of(Group group, std::uint8_t index) const {
         const auto found = std::find_if(values_.begin(), values_.end(), [&](const Value& known) {
             return known.reg.group == group && known.reg.index == index && known.is_one;
         });
-        return found == values_.end() ? std::nullopt : std::optional(found->value);
+        return found == values_.end() ? std::nullopt : std::optional(found->values);
     }
 
-    std::optional<KnownPlace> place_of(Selection reg, Span span) const {
+    std::optional<Place> move_of(const Send& send) const {
+        const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+        if (!select || select->mode != Mode::position || select->selection.group != Group::p)
+            return std::nullopt;
+        return place_of(select->selection, send.span);
+    }
+
+    std::optional<Place> place_of(Selection reg, Span span) const {
         const auto counts = value_of(Group::p, reg.index);
-        return counts ? std::optional(KnownPlace{*counts, reg, span}) : std::nullopt;
+        return counts ? std::optional(Place{*counts, reg, span}) : std::nullopt;
     }
 
     static void apply_velocity(PlaceState& state, const Send& send) {
@@ -179,20 +213,27 @@ class PlaceWalk {
             case Number::positions_relative_p_fnc:
                 state.relative = true;
                 break;
+            case Number::clear_v_soll:
+            case Number::use_set_1:
+            case Number::use_set_2:
+            case Number::use_set_3:
+            case Number::use_set_4:
+                state.velocity = {0};
+                break;
             default:
                 break;
         }
-        state.velocity = {0};
         state.lose();
     }
 
-    void judge_standing(const PlaceState& before, const KnownPlace& to) {
-        if (before.anywhere || before.standing.empty() || said_.contains(to.span.offset) ||
+    void judge_standing(const PlaceState& before, const Place& to) {
+        if (!to.counts.is_one() || before.anywhere || before.standing.empty() ||
+            said_.contains(to.span.offset) ||
             std::any_of(before.standing.begin(), before.standing.end(),
-                        [&](const KnownPlace& place) { return !(place == to); }))
+                        [&](const Place& place) { return !(place == to); }))
             return;
         said_.insert(to.span.offset);
-        const KnownPlace& from = before.standing.front();
+        const Place& from = before.standing.front();
         const bool is_other = from.reg.index != to.reg.index;
         Diagnostic& d = report_.add(
             "W040", to.span,
@@ -203,32 +244,62 @@ class PlaceWalk {
         d.notes.push_back({from.span, "it was sent there here"});
     }
 
-    void judge_limit(const Rule& rule, const PlaceState& before, const PlaceState& after) {
-        if (symbols_.drive != nullptr || !rule.action.timer || rule.action.timer_point != 0 ||
-            !rule.action.next || !waits_with_limit(*rule.action.next))
-            return;
-        const KnownPlace& to = after.going.front();
-        for (const KnownPlace& from : before.standing) {
-            const auto seconds = least_time(from, to, after.velocity);
-            if (!seconds || *seconds * 1000 <= *rule.action.timer ||
-                !said_limits_.insert(rule.action.timer_span.offset).second)
-                continue;
-            Diagnostic& d = report_.add(
-                "W041", rule.action.timer_span,
-                fmt::format(
-                    "this time limit ends before the move does: {:.2f} s from {} to {}, and {:.2f} s here",
-                    *seconds, shown_register(symbols_, from.reg), shown_register(symbols_, to.reg),
-                    *rule.action.timer / 1000.0),
-                fmt::format("write more than {} ms, with time for the ramps, or select a higher velocity",
-                            std::lround(std::ceil(*seconds * 1000))));
-            d.notes.push_back({to.span, fmt::format("'{}' is the move", statement_text(source_, to.span))});
+    /// A constant, or the longest time of a set-point.
+    std::int64_t limit_of(const Rule& rule) const {
+        const std::uint8_t point = rule.action.timer_point;
+        return point == 0 ? *rule.action.timer : points_[point - 1U].point.highest;
+    }
+
+    void judge_limit(const Rule& rule, const PlaceState& before, const Place& to,
+                     const std::vector<std::uint8_t>& velocity) {
+        if (limit_of(rule) < kInPositionMs)
+            return warn_limit(
+                rule, to, "INPOS comes 6 to 10 ms after the axis is there, and this time limit ends before",
+                "write the time that the move takes, and some more");
+        if (before.relative) {
+            const std::int64_t longest = std::max(std::abs(to.counts.low), std::abs(to.counts.high));
+            return judge_time(rule, to, least_time(longest, velocity), to.counts.is_one(),
+                              fmt::format("for {}", shown_register(symbols_, to.reg)));
+        }
+        if (!before.going.empty()) return;
+        for (const Place& from : before.standing) {
+            if (from.reg.index == to.reg.index) continue;
+            judge_time(rule, to, least_time(longest_way(from, to), velocity),
+                       from.counts.is_one() && to.counts.is_one(),
+                       fmt::format("from {} to {}", shown_register(symbols_, from.reg),
+                                   shown_register(symbols_, to.reg)));
         }
     }
 
-    /// A step that INPOS leaves, and the timer for another one.
-    bool waits_with_limit(std::uint8_t number) const {
-        const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(),
-                                       [&](const StepPlan& each) { return each.number == number; });
+    void judge_time(const Rule& rule, const Place& to, const std::optional<Least>& least, bool is_one,
+                    const std::string& way) {
+        const double limit = static_cast<double>(limit_of(rule)) / 1000;
+        if (!least || least->seconds <= limit) return;
+        warn_limit(rule, to,
+                   fmt::format("this time limit ends before the move does: {:.2f} s {}{}, and {:.2f} s here",
+                               least->seconds, way,
+                               is_one && least->is_one ? "" : " at the worst of the set-points", limit),
+                   fmt::format("write more than {} ms, with time for the ramps, or select a higher velocity",
+                               std::lround(std::ceil(least->seconds * 1000))));
+    }
+
+    void warn_limit(const Rule& rule, const Place& to, std::string message, std::string help) {
+        if (!said_limits_.insert(rule.action.timer_span.offset).second) return;
+        Diagnostic& d = report_.add("W041", rule.action.timer_span, std::move(message), std::move(help));
+        d.notes.push_back({to.span, fmt::format("'{}' is the move", statement_text(source_, to.span))});
+    }
+
+    static std::int64_t longest_way(const Place& from, const Place& to) {
+        return std::max(std::abs(to.counts.high - from.counts.low),
+                        std::abs(from.counts.high - to.counts.low));
+    }
+
+    /// It leads, with the timer preset, to a step that INPOS leaves, and the timer for another one.
+    bool waits_with_limit(const Rule& entering) const {
+        if (symbols_.drive != nullptr || !entering.action.timer || !entering.action.next) return false;
+        const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& each) {
+            return each.number == *entering.action.next;
+        });
         if (step == plan_.steps.end()) return false;
         bool arrives = false;
         bool ends = false;
@@ -240,19 +311,20 @@ class PlaceWalk {
         return arrives && ends;
     }
 
-    /// At full velocity all the way; ramps come on top.
-    std::optional<double> least_time(const KnownPlace& from, const KnownPlace& to,
-                                     const std::vector<std::uint8_t>& velocity) const {
+    /// At full velocity all the way; ramps come on top. With the lowest velocity of a range.
+    std::optional<Least> least_time(std::int64_t counts, const std::vector<std::uint8_t>& velocity) const {
         if (velocity.size() != 1 || velocity.front() == 0) return std::nullopt;
         const auto raw = value_of(Group::v, velocity.front());
         const registers::Register* reg = register_of(Group::v, velocity.front());
-        if (!raw || *raw == 0 || reg == nullptr) return std::nullopt;
+        if (!raw || reg == nullptr) return std::nullopt;
+        const std::int64_t slowest = std::min(std::abs(raw->low), std::abs(raw->high));
         const auto per_rpm = raw_per_unit(*reg, symbols_.motor, {}, "rpm");
-        if (!per_rpm) return std::nullopt;
-        const double rounds_per_second = std::fabs(static_cast<double>(*raw) / *per_rpm) / 60;
-        const auto distance = static_cast<double>(std::abs(to.counts - from.counts));
-        return distance / static_cast<double>(registers::exact_scale_of(symbols_.motor).counts_per_rev) /
-               rounds_per_second;
+        if (slowest == 0 || !per_rpm) return std::nullopt;
+        const double rounds_per_second = static_cast<double>(slowest) / std::fabs(*per_rpm) / 60;
+        return Least{static_cast<double>(counts) /
+                         static_cast<double>(registers::exact_scale_of(symbols_.motor).counts_per_rev) /
+                         rounds_per_second,
+                     raw->is_one()};
     }
 
     const registers::Register* register_of(Group group, std::uint8_t index) const {
@@ -266,6 +338,7 @@ class PlaceWalk {
 
     const Plan& plan_;
     const Symbols& symbols_;
+    const std::vector<DeclaredSetPoint>& points_;
     std::string_view source_;
     Report& report_;
     std::vector<Value> values_;
@@ -275,12 +348,10 @@ class PlaceWalk {
 
 }  // namespace
 
-void check_known_places(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report) {
-    const bool has_terms =
-        !plan.terms.empty() ||
-        std::any_of(plan.steps.begin(), plan.steps.end(), [](const StepPlan& s) { return !s.terms.empty(); });
-    if (has_terms) return;
-    PlaceWalk walk(plan, symbols, source, report);
+void check_known_places(const Plan& plan, const Symbols& symbols, const std::vector<DeclaredSetPoint>& points,
+                        std::string_view source, Report& report) {
+    if (has_terms(plan)) return;
+    PlaceWalk walk(plan, symbols, points, source, report);
     PlaceState at_power_up;
     at_power_up.known = true;
     at_power_up.anywhere = true;

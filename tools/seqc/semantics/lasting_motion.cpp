@@ -6,13 +6,12 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
 /// What the motor may be doing.
@@ -25,57 +24,6 @@ enum MotionBit : std::uint8_t {
     kMayHoming = 32,
     kMayDriven = 64,  ///< a torque mode
 };
-
-/// What a send is to a motion.
-enum class MotionEffect : std::uint8_t { nothing, init, run, place, hold, home, drive, stop, speed, target };
-
-MotionEffect motion_effect_of_mode(std::uint32_t mode) {
-    constexpr std::uint32_t kTorque = 4;
-    if (mode == 0) return MotionEffect::init;
-    if (mode == 2) return MotionEffect::place;
-    if (mode >= 12 && mode <= 14) return MotionEffect::home;
-    return mode == kTorque ? MotionEffect::drive : MotionEffect::run;
-}
-
-MotionEffect motion_effect_of(const Send& send) {
-    if (send.reg != nullptr) {
-        switch (send.reg->number) {
-            case registers::MODE_REG:
-                return motion_effect_of_mode(send.value);
-            case registers::V_SOLL:
-                return send.value == 0 ? MotionEffect::stop : MotionEffect::speed;
-            case registers::V_REG_P:
-                return MotionEffect::speed;
-            default:
-                return MotionEffect::nothing;
-        }
-    }
-    if (const auto select = select_command(send.command)) {
-        if (select->mode == Mode::init) return MotionEffect::init;
-        if (select->mode == Mode::velocity) return MotionEffect::run;
-        return select->selection.group == Group::p ? MotionEffect::place : MotionEffect::hold;
-    }
-    switch (static_cast<Number>(send.command & 0x1F)) {
-        case Number::clear_p_soll:
-        case Number::clear_p_fnc:
-            return MotionEffect::target;
-        case Number::clear_v_soll:
-            return MotionEffect::stop;
-        case Number::home:
-            return MotionEffect::home;
-        case Number::move_p7_by_p_fnc:
-        case Number::move_p8_by_p_fnc:
-        case Number::move_p7_by_p_soll:
-        case Number::move_p8_by_p_soll:
-        case Number::use_set_1:
-        case Number::use_set_2:
-        case Number::use_set_3:
-        case Number::use_set_4:
-            return MotionEffect::place;
-        default:
-            return MotionEffect::nothing;
-    }
-}
 
 bool clears_register(const Send& send, Number number) {
     return send.reg == nullptr && !select_command(send.command) &&
@@ -115,7 +63,7 @@ class LastingMotionWalk {
 
     static void apply(LastingMotion& state, const Send& send) {
         switch (motion_effect_of(send)) {
-            case MotionEffect::nothing:
+            case MotionEffect::none:
             case MotionEffect::target:
                 return;
             case MotionEffect::init:
@@ -156,14 +104,12 @@ class LastingMotionWalk {
     }
 
   private:
-    static bool decides(MotionEffect effect) {
-        return effect == MotionEffect::init || effect == MotionEffect::run || effect == MotionEffect::place ||
-               effect == MotionEffect::home || effect == MotionEffect::drive;
-    }
     /// Another order of the scan says what the motor does.
     static bool is_decided(const Rule& rule) {
-        return std::any_of(rule.action.sends.begin(), rule.action.sends.end(),
-                           [](const Send& send) { return decides(motion_effect_of(send)); });
+        return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [](const Send& send) {
+            const MotionEffect effect = motion_effect_of(send);
+            return effect == MotionEffect::init || moves(effect);
+        });
     }
     static bool clears_all(const Rule& rule) {
         const auto has = [&](Number number) {

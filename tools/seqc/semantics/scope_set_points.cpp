@@ -30,8 +30,8 @@ bool is_whole(double value) {
 
 /// `low`: the lower end in the set-point's unit, as written.
 void lay_grid(set_points::SetPoint& point, double low) {
-    constexpr double kNothing = 1e-9;
-    if (std::fabs(set_points::shown_value(point, point.lowest) - low) > kNothing * std::fabs(low))
+    constexpr double kRounding = 1e-9;
+    if (std::fabs(set_points::shown_value(point, point.lowest) - low) > kRounding * std::fabs(low))
         point.grid_from = low;
 }
 

@@ -1,0 +1,174 @@
+// Moves that reckon with a P_SOLL or P_FNC which a run at a speed left behind.
+#include "semantics/checker.h"
+#include "semantics/commands.h"
+#include "semantics/guards.h"
+#include "semantics/orders.h"
+#include "semantics/step_walk.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+struct AwayState {
+    bool known = false;
+    bool relative = false;
+    bool soll_is_0 = false;  ///< surely, and fnc_is_0: surely what CLEAR_P_FNC made it
+    bool fnc_is_0 = false;
+    bool searches = false;  ///< `ran` may be a home search that is not over
+    Span ran;               ///< what moved the axis away from P_SOLL; length 0: nothing did
+    Span cleared;           ///< the CLEAR_P_IST after which P_IST and P_FNC are two places
+
+    bool is_known() const { return known; }
+    bool join(const AwayState& other) {
+        if (!known) {
+            *this = other;
+            return other.known;
+        }
+        const AwayState before = *this;
+        relative = relative || other.relative;
+        soll_is_0 = soll_is_0 && other.soll_is_0;
+        fnc_is_0 = fnc_is_0 && other.fnc_is_0;
+        searches = searches || other.searches;
+        if (ran.length == 0) ran = other.ran;
+        if (cleared.length == 0) cleared = other.cleared;
+        return relative != before.relative || soll_is_0 != before.soll_is_0 || fnc_is_0 != before.fnc_is_0 ||
+               searches != before.searches || ran != before.ran || cleared != before.cleared;
+    }
+    /// P_FNC became 0, or P_SOLL.
+    void clear_one(bool AwayState::*which) {
+        this->*which = true;
+        if (soll_is_0 && fnc_is_0) ran = {};
+    }
+};
+
+class AwayWalk {
+  public:
+    using State = AwayState;
+
+    explicit AwayWalk(Report& report) : report_(report) {}
+
+    /// After a home search INPOS is that of P_SOLL = 0 (001 §4.4.13).
+    static void enter(AwayState& state, const StepPlan&, const Rule& rule) {
+        if (!needs_in_position(rule) || !state.searches) return;
+        state.searches = false;
+        state.ran = {};
+    }
+
+    static void apply(AwayState& state, const Send& send) {
+        const MotionEffect effect = motion_effect_of(send);
+        if (moves(effect)) state.fnc_is_0 = false;
+        if (effect == MotionEffect::run || outlasts_stop(effect)) state.ran = send.span;
+        if (effect == MotionEffect::init || moves(effect)) state.searches = effect == MotionEffect::home;
+        if (effect == MotionEffect::home) {
+            state.cleared = {};
+            state.soll_is_0 = true;
+        }
+        if (send.reg != nullptr) return apply_write(state, send);
+        if (const auto select = select_command(send.command)) {
+            if (select->selection.group != Group::p) return;
+            state.soll_is_0 = false;
+            state.ran = {};
+            return;
+        }
+        apply_number(state, static_cast<Number>(send.command & 0x1F), send.span);
+    }
+
+    void judge(const Rule& rule, AwayState state) {
+        for (const Send& send : rule.action.sends) {
+            const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+            if (select && select->mode == Mode::position && select->selection.group == Group::p)
+                judge_move(send, state);
+            apply(state, send);
+        }
+    }
+
+  private:
+    static void apply_write(AwayState& state, const Send& send) {
+        const bool is_0 = send.value == 0 && send.set_point == 0;
+        switch (send.reg->number) {
+            case registers::P_SOLL:
+                if (is_0) return state.clear_one(&AwayState::soll_is_0);
+                break;
+            case registers::P_FNC:
+                state.cleared = {};
+                if (is_0) return state.clear_one(&AwayState::fnc_is_0);
+                break;
+            case registers::P_IST:
+                break;
+            default:
+                return;
+        }
+        state.soll_is_0 = false;
+        state.ran = {};  // whoever writes a place reckons by himself
+    }
+
+    static void apply_number(AwayState& state, Number number, Span span) {
+        switch (number) {
+            case Number::positions_absolute:
+                state.relative = false;
+                return;
+            case Number::positions_relative_p_soll:
+            case Number::positions_relative_p_fnc:
+                state.relative = true;
+                return;
+            case Number::clear_p_soll:
+                return state.clear_one(&AwayState::soll_is_0);
+            case Number::clear_p_fnc:
+                state.cleared = {};
+                return state.clear_one(&AwayState::fnc_is_0);
+            case Number::clear_p_ist:
+                if (!state.fnc_is_0) state.cleared = span;
+                return;
+            case Number::move_p7_by_p_soll:
+            case Number::move_p8_by_p_soll:
+            case Number::move_p7_by_p_fnc:
+            case Number::move_p8_by_p_fnc:
+            case Number::use_set_1:
+            case Number::use_set_2:
+            case Number::use_set_3:
+            case Number::use_set_4:
+                state.soll_is_0 = false;
+                state.ran = {};
+                return;
+            default:
+                return;
+        }
+    }
+
+    void judge_move(const Send& send, const AwayState& state) {
+        if (report_.has("W046", send.span)) return;
+        if (state.relative && state.ran.length != 0) {
+            report_
+                .add("W046", send.span,
+                     "this relative move may begin where the axis was before it ran: P_SOLL is still there",
+                     "make 0 of where the axis stands, in INIT: INIT(V..); CLEAR_P_IST; CLEAR_P_FNC; "
+                     "CLEAR_P_SOLL;")
+                .notes.push_back({state.ran, "it ran from here on, and P_SOLL stayed"});
+        } else if (!state.relative && state.cleared.length != 0) {
+            report_
+                .add("W046", send.span,
+                     "this place may be another one than P_IST tells: P_FNC still counts from the old 0",
+                     "write both, in INIT: INIT(V..); CLEAR_P_IST; CLEAR_P_FNC;")
+                .notes.push_back({state.cleared, "P_IST becomes 0 here, and P_FNC does not"});
+        }
+    }
+
+    Report& report_;
+};
+
+}  // namespace
+
+void check_moved_away(const Plan& plan, Report& report) {
+    if (has_terms(plan)) return;
+    AwayWalk walk(report);
+    AwayState at_power_up;
+    at_power_up.known = true;
+    at_power_up.soll_is_0 = true;
+    at_power_up.fnc_is_0 = true;
+    walk_steps(plan, at_power_up, walk);
+}
+
+}  // namespace nplc::seqc
