@@ -160,6 +160,7 @@ void Gateway::make_safe(base::Instant now) {
     signals_.read(now);
     expire_forces(now);
     note_motor_fault();
+    if (motor::kLateLines) note_late_line();
     watch_stop();
     serve_sequence(now);
     show_outputs();
@@ -298,6 +299,14 @@ void Gateway::note_motor_fault() {
     if (fault == motor_fault_) return;
     motor_fault_ = fault;
     if (fault != 0) note(Event::motor_fault, fault);
+}
+
+void Gateway::note_late_line() {
+    const base::Microseconds echo = motor_.echo_time();
+    const bool late = echo > motor::kLongestEcho;
+    if (late == line_is_late_) return;
+    line_is_late_ = late;
+    if (late) note(Event::line_late, static_cast<std::uint16_t>(echo.count() / 1'000));
 }
 
 void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {

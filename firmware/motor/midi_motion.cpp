@@ -29,6 +29,12 @@ constexpr base::Microseconds ramp_time(std::uint8_t ramp, std::uint16_t period) 
     return base::Microseconds(std::uint32_t{30} * ramp * period);
 }
 
+/// Modulo 2^32, as the module counts.
+constexpr bool is_near(std::int32_t a, std::int32_t b, std::int32_t slack) {
+    const auto most = static_cast<std::uint32_t>(slack);
+    return static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b) + most <= 2 * most;
+}
+
 }  // namespace
 
 void MidiMotion::begin(State state) {
@@ -135,8 +141,7 @@ bool MidiMotion::is_explained(const MidiDrive& drive, std::uint32_t asked_at, ba
 }
 
 bool MidiMotion::is_within(const MidiDrive& drive, std::int32_t slack) const {
-    const auto away = static_cast<std::int64_t>(drive.position()) - goal_;
-    return std::abs(away) <= slack;
+    return is_near(drive.position(), goal_, slack);
 }
 
 /// Another master's move may have been too short to be reported as busy.
@@ -162,8 +167,7 @@ base::Microseconds MidiMotion::steady_time(const MidiDrive& drive) const {
 }
 
 [[gnu::noinline]] MidiMotion::Event MidiMotion::check_steady(const MidiDrive& drive, base::Instant now) {
-    const auto away = static_cast<std::int64_t>(drive.position()) - steady_position_;
-    if (!steady_begun_ || std::abs(away) > slack()) {
+    if (!steady_begun_ || !is_near(drive.position(), steady_position_, slack())) {
         if (steady_begun_ && state_ == State::running) doubtful_ = false;
         if (steady_begun_ && state_ == State::unknown) seen_moving_ = true;
         steady_begun_ = true;

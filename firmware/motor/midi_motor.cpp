@@ -14,6 +14,7 @@ using registers::MODE_REG;
 using registers::T_SOLL;
 using registers::V_SOLL;
 using Kind = MidiOutcome::Kind;
+constexpr auto kNothing = MidiNext::nothing;
 
 constexpr std::uint8_t kMostRepeats = 3;  ///< of one command
 constexpr base::Microseconds kRetry{20'000};
@@ -40,14 +41,6 @@ constexpr std::uint32_t bit(bool set, std::uint32_t mask) {
     return set ? mask : 0;
 }
 
-constexpr MidiMessage query(midi::Query number) {
-    return {.is_query = true, .number = number};
-}
-
-constexpr MidiMessage command(midi::Command number) {
-    return {.number = number};
-}
-
 }  // namespace
 
 void MidiMotor::poll(base::Instant now) {
@@ -65,15 +58,14 @@ base::Instant MidiMotor::next_poll(base::Instant now) const {
     if (link_.busy() && !(kWholeMidiStop && stop_wanted_ && session_.is_blind())) return link_.next_poll(now);
     base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(now), now));
     if (!session_.is_up()) return next;
-    if ((refusals_ != 0 || (kWholeMidiStop && stop_wanted_)) && retry_at_ > now)
-        next = std::min(next, retry_at_);
+    if ((refusals_ != 0 || stop_wanted_) && retry_at_ > now) next = std::min(next, retry_at_);
     if (motion_.state() == MidiMotion::State::stopping)
         next = std::min(next, std::max(now, motion_.ramp_end()));
     return next;
 }
 
 bool MidiMotor::has_work(base::Instant now) const {
-    return (stop_wanted_ && (!kWholeMidiStop || now >= retry_at_)) || reset_wanted_ || zero_wanted_ ||
+    return (stop_wanted_ && now >= retry_at_) || reset_wanted_ || zero_wanted_ ||
            registers_.awaits_position() || orders_.is_executing() || !orders_.empty() || !status_is_new_ ||
            motion_.is_doubtful() || access_.is_open();
 }
@@ -188,7 +180,7 @@ void MidiMotor::on_status() {
     status_is_new_ = true;
     if (!session_.is_up() || !drive_.trips()) return;
     raise(MidiFault::tripped);
-    if (!kWholeMidiStop || !stop_wanted_) motion_.end_by_trip();
+    if (!stop_wanted_) motion_.end_by_trip();
 }
 
 void MidiMotor::on_position(base::Instant now) {
@@ -200,7 +192,7 @@ void MidiMotor::on_position(base::Instant now) {
     if (access_.is_under_way() && !access_.access().is_write) finish_read();
     const bool was_at_rest = motion_.at_rest();
     const MidiMotion::Event event = motion_.on_position(drive_, asked_at_, now);
-    if (kWholeMidiStop && !was_at_rest && motion_.at_rest()) give_up_stop();  // confirmed
+    if (!was_at_rest && motion_.at_rest()) give_up_stop();  // confirmed
     on_motion(event);
 }
 
@@ -228,7 +220,7 @@ void MidiMotor::on_unclear(base::Instant now) {
     const bool in_run = message_.number == midi::RUN && motion_.state() == MidiMotion::State::running;
     const bool moved_origin = message_.number == midi::ZERO_POSITION && !motion_.at_rest();
     if (in_run || moved_origin || ++repeats_ > kMostRepeats) {
-        if (kWholeMidiStop && stop_wanted_) pause_stop(now);
+        if (stop_wanted_) pause_stop(now);
         forget_parameter();
         raise(MidiFault::unclear);
         stop_wanted_ = true;
@@ -270,15 +262,10 @@ void MidiMotor::on_refused(base::Instant now) {
 }
 
 /// Nothing confirms the stop: the shaft may, before it is sent again.
-void MidiMotor::pause_stop(base::Instant now) {
-    if constexpr (kWholeMidiStop) {
-        stop_hard_ = stop_wanted_;
-        if (motion_.state() != MidiMotion::State::unknown) motion_.forget();
-        retry_at_ = now + session_.stop_pause();
-    } else {
-        stop_wanted_ = stop_hard_ = false;
-        motion_.forget();
-    }
+[[gnu::noinline]] void MidiMotor::pause_stop(base::Instant now) {
+    stop_hard_ = stop_wanted_;
+    if (motion_.state() != MidiMotion::State::unknown) motion_.forget();
+    retry_at_ = now + session_.stop_pause();
 }
 
 /// It moves, whatever the driver has concluded before.
@@ -330,72 +317,71 @@ void MidiMotor::raise_and_stop(MidiFault fault) {
 
 void MidiMotor::work(base::Instant now) {
     if (link_.busy() && !(stop_wanted_ && session_.is_stop_due(now))) return;
-    const Message message = next_message(now);
-    if (!message) return;
-    message_ = *message;
+    const MidiNext next = next_message(now);
+    if (next == kNothing) return;
+    message_ = message_of(next);
     asked_at_ = static_cast<std::uint32_t>(now.time_since_epoch().count());
     link_.begin(message_, now);
 }
 
-MidiMotor::Message MidiMotor::next_message(base::Instant now) {
+MidiNext MidiMotor::next_message(base::Instant now) {
     if (!session_.is_up()) return session_.start_up(stop_wanted_, now);
-    if (session_.must_ask()) return query(midi::GET_STATUS);
+    if (session_.must_ask()) return midi_query(midi::GET_STATUS);
     for (;;) {
-        if (const Message command = next_command(now)) return command;
-        if (zero_unclear_ || registers_.awaits_position()) return query(midi::GET_POSITION);
+        if (const MidiNext next = next_command(now); next != kNothing) return next;
+        if (zero_unclear_ || registers_.awaits_position()) return midi_query(midi::GET_POSITION);
         if (motion_.is_doubtful()) return next_query(now);
         orders_.end();
         if (orders_.empty()) break;
         execute(orders_.begin());
     }
-    if (!status_is_new_) return query(midi::GET_STATUS);
-    if (const Message access = next_access()) return access;
+    if (!status_is_new_) return midi_query(midi::GET_STATUS);
+    if (const MidiNext next = next_access(); next != kNothing) return next;
     return next_query(now);
 }
 
-MidiMotor::Message MidiMotor::next_query(base::Instant now) {
+MidiNext MidiMotor::next_query(base::Instant now) {
     return session_.next_query(motion_.moves() || motion_.needs_position(drive_), motion_.is_doubtful(), now);
 }
 
-/// The command that can be sent now to bring the drive to the state in the registers; empty while it has to
+/// The command that can be sent now to bring the drive to the state in the registers; nothing while it has to
 /// wait for standstill.
-[[gnu::noinline]] MidiMotor::Message MidiMotor::next_command(base::Instant now) {
+[[gnu::noinline]] MidiNext MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
     if (stop_wanted_)
-        return kWholeMidiStop && now < retry_at_ ? Message{}
-                                                 : command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
-    if (reset_wanted_) return command(midi::RESET);
-    if (zero_unclear_ || motion_.is_doubtful()) return {};
-    if (zero_wanted_) return command(midi::ZERO_POSITION);
+        return now < retry_at_ ? kNothing : midi_command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
+    if (reset_wanted_) return midi_command(midi::RESET);
+    if (zero_unclear_ || motion_.is_doubtful()) return kNothing;
+    if (zero_wanted_) return midi_command(midi::ZERO_POSITION);
     MidiGuidance guidance(registers_, drive_, motion_);
-    if (const Message parameter = guidance.next_parameter()) return parameter;
+    if (const MidiNext next = guidance.next_parameter(); next != kNothing) return next;
     if (registers_.mode() == 0)
-        return motion_.moves() || (motion_.is_stray() && error()) ? command(midi::STOP) : Message{};
-    if (refusals_ != 0 && now < retry_at_) return {};
-    if (motion_.is_stray()) return command(midi::STOP);
-    if (!session_.is_alone(now)) return {};
-    const Message motion = guidance.next_motion();
+        return motion_.moves() || (motion_.is_stray() && error()) ? midi_command(midi::STOP) : kNothing;
+    if (refusals_ != 0 && now < retry_at_) return kNothing;
+    if (motion_.is_stray()) return midi_command(midi::STOP);
+    if (!session_.is_alone(now)) return kNothing;
+    const MidiNext motion = guidance.next_motion();
     if (guidance.limitation() != Limitation::none) raise(MidiFault::bad_value, guidance.limitation());
     return motion;
 }
 
 /// Accesses come after all orders. A write is done when its commands have been carried out.
-MidiMotor::Message MidiMotor::next_access() {
+MidiNext MidiMotor::next_access() {
     const Access& access = access_.access();
     if (access_.is_under_way()) {
-        if (!access.is_write) return query(midi::GET_POSITION);
+        if (!access.is_write) return midi_query(midi::GET_POSITION);
         error() == access_error_ ? access_.finish() : access_.fail();
     }
-    if (!access_.waits()) return {};
+    if (!access_.waits()) return kNothing;
     access_.start();
     if (access.is_write) {
         begin_write();
-        return {};
+        return kNothing;
     }
     const unsigned last = access.reg + (access.longword ? 1U : 0U);
-    if (last >= registers::P_IST && access.reg <= registers::V_IST) return query(midi::GET_POSITION);
+    if (last >= registers::P_IST && access.reg <= registers::V_IST) return midi_query(midi::GET_POSITION);
     finish_read();
-    return {};
+    return kNothing;
 }
 
 // Effects of an order.
@@ -510,7 +496,6 @@ void MidiMotor::stop() {
     registers_.set_word(MODE_REG, 0);
     access_.fail_waiting();
     stop_wanted_ = true;
-    if (!kWholeMidiStop) return;
     retry_at_ = {};
     motion_.begin_command();
     session_.begin_stop();

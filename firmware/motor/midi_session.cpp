@@ -18,10 +18,6 @@ constexpr base::Microseconds kDeaf{2'100'000};
 /// Its longest answer, and time for the proof.
 constexpr base::Microseconds kOthersShow{200'000};
 
-constexpr MidiMessage query(midi::Query number, std::uint8_t sub_index = 0) {
-    return {.is_query = true, .number = number, .sub_index = sub_index};
-}
-
 }  // namespace
 
 Link MidiSession::link() const {
@@ -30,43 +26,43 @@ Link MidiSession::link() const {
     return link_error_ ? Link::unacknowledged : Link::up;
 }
 
-std::optional<MidiMessage> MidiSession::start_up(bool stop_wanted, base::Instant now) {
+MidiNext MidiSession::start_up(bool stop_wanted, base::Instant now) {
     switch (phase_) {
         case Phase::down:
-            if (now < next_query_) return {};
+            if (now < next_query_) return MidiNext::nothing;
             next_query_ = now + kProbe;
-            if (!stop_wanted || !blind_) return query(midi::GET_STATUS);
+            if (!stop_wanted || !blind_) return midi_query(midi::GET_STATUS);
             if (kWholeMidiStop) {
                 next_query_ = now + stop_pause();
                 ignore_ = false;
             }
-            return MidiMessage{.number = midi::EMERGENCY_STOP};
+            return midi_command(midi::EMERGENCY_STOP);
         case Phase::resetting:
-            if (now < deaf_until_) return {};
+            if (now < deaf_until_) return MidiNext::nothing;
             phase_ = Phase::status;
             [[fallthrough]];
         case Phase::status:
-            return query(midi::GET_STATUS);
+            return midi_query(midi::GET_STATUS);
         case Phase::imax:
-            return query(midi::GET_RAM, midi::kImaxAddress);
+            return midi_query(midi::GET_RAM, midi::kImaxAddress);
         case Phase::speeds:
-            return query(midi::GET_SPEEDS);
+            return midi_query(midi::GET_SPEEDS);
         case Phase::settings:
-            return query(midi::GET_SETTINGS);
+            return midi_query(midi::GET_SETTINGS);
         case Phase::position:
-            return query(midi::GET_POSITION);
+            return midi_query(midi::GET_POSITION);
         case Phase::up:
             break;
     }
-    return {};
+    return MidiNext::nothing;
 }
 
-std::optional<MidiMessage> MidiSession::next_query(bool needs_position, bool at_once, base::Instant now) {
-    if (!at_once && now < next_query_) return {};
+MidiNext MidiSession::next_query(bool needs_position, bool at_once, base::Instant now) {
+    if (!at_once && now < next_query_) return MidiNext::nothing;
     turn_ = static_cast<std::uint8_t>(turn_ == 2 ? 0 : turn_ + 1);
-    if (turn_ == 2 && needs_position) return query(midi::GET_POSITION);
+    if (turn_ == 2 && needs_position) return midi_query(midi::GET_POSITION);
     if (turn_ == 2) turn_ = 0;
-    return query(turn_ == 0 ? midi::GET_STATUS : midi::GET_MEASURES);
+    return midi_query(turn_ == 0 ? midi::GET_STATUS : midi::GET_MEASURES);
 }
 
 base::Instant MidiSession::next_send(bool has_work, base::Instant now) const {

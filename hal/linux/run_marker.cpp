@@ -19,6 +19,7 @@ namespace {
 const std::string kFresh = "fresh/2";
 const std::string kEnded = "ended/2";
 const std::string kRunning = "runs/2 ";
+const std::string kCrashed = "crash/2";
 /// Written by the previous version.
 const std::string kOldFresh = "fresh  ";
 const std::string kOldEnded = "ended  ";
@@ -67,6 +68,7 @@ void RunMarker::look() {
     if (is(kFresh) || is(kOldFresh)) found_ = Found::fresh;
     if (is(kEnded) || is(kOldEnded)) found_ = Found::ended;
     if (is(kRunning) || is(kOldRunning)) found_ = Found::running;
+    if (is(kCrashed)) found_ = Found::crashed;
     is_whole_ = true;
     is_old_ = is(kOldFresh) || is(kOldEnded) || is(kOldRunning);
     of_this_boot_ = text.compare(kRunning.size() + 1, kBoot, boot_) == 0;
@@ -82,6 +84,10 @@ std::string RunMarker::set() {
 
 std::string RunMarker::clear() {
     return write(kEnded);
+}
+
+std::string RunMarker::note_crash() {
+    return write(kCrashed);
 }
 
 std::string RunMarker::write(const std::string& state) {

@@ -3,18 +3,40 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "base/crc32.h"
+
+namespace {
+
+struct Disk {
+    std::atomic<bool> holds = false;
+    std::atomic<bool> fails = false;
+} disk;
+
+}  // namespace
+
+/// In place of the C library's.
+extern "C" int fdatasync(int file) {
+    while (disk.holds) std::this_thread::yield();
+    if (!disk.fails) return ::fsync(file);
+    errno = EIO;
+    return -1;
+}
 
 namespace nplc::boards {
 namespace {
 
+using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 using enum AutostartPermission;
 
@@ -90,6 +112,11 @@ class AxisStoreTest : public testing::Test {
     /// As the version before 2 left it.
     void write_old_mark(std::string word) const {
         word.resize(7, ' ');
+        write_mark(word);
+    }
+    /// The power is cut and comes back: what stands there is of another boot.
+    void cut_power() const { write_mark(content(mark()).substr(0, 7)); }
+    void write_mark(const std::string& word) const {
         const std::string checked = word + " 01234567-89ab-cdef-0123-456789abcdef ";
         std::array<char, 10> crc{};
         const std::vector<std::uint8_t> bytes(checked.begin(), checked.end());
@@ -141,6 +168,53 @@ TEST_F(AxisStoreTest, APowerCutGoesAsItIsConfigured) {
     write_old_mark("running");
     EXPECT_EQ(start_and_end({.power_cut_waits = true}), after_crash);
     EXPECT_EQ(start_and_end(), after_crash);
+}
+
+TEST_F(AxisStoreTest, APowerCutAfterACrashIsStillACrash) {
+    command_run_once();
+    { Run crashed = start(); }
+    EXPECT_EQ(note_crash(folder()), "");
+    cut_power();
+    EXPECT_EQ(start_and_end(), after_crash);
+    cut_power();
+    EXPECT_EQ(start_and_end(), after_crash);
+    command_run_once();
+    EXPECT_EQ(note_crash(folder()), "") << "an orderly end stays one";
+    cut_power();
+    EXPECT_EQ(start_and_end(), given);
+    { Run run = start(); }
+    cut_power();
+    EXPECT_EQ(note_crash(folder()), "") << "the end of a start that failed, after a power cut";
+    EXPECT_EQ(start_and_end(), given);
+    EXPECT_EQ(note_crash(folder("nowhere")), "");
+}
+
+TEST_F(AxisStoreTest, AnEndWithTheMotorUnstoppedWaitsInTheNextBootToo) {
+    command_run_once();
+    {
+        Run run = start();
+        EXPECT_EQ(run.store.mark_crashed(), "");
+    }
+    cut_power();
+    EXPECT_EQ(start_and_end(), after_crash);
+}
+
+/// With the power cut between the two, the crash is known by either.
+TEST_F(AxisStoreTest, ACrashIsInTheStoreBeforeTheMarkSaysThatItRuns) {
+    command_run_once();
+    { Run crashed = start(); }
+    EXPECT_EQ(note_crash(folder()), "");
+    const std::string noted = content(mark());
+    const std::string axis = "a";
+    Journal journal{LogLevel::error};
+    AxisJournal axis_journal{journal, axis};
+    AxisStore again(axis_journal, axis);
+    ASSERT_EQ(again.open(folder()), "");
+    EXPECT_TRUE(again.is_after_crash({}));
+    fs::rename(store(), store() + ".away");
+    EXPECT_NE(again.mark_running(), "");
+    EXPECT_EQ(content(mark()), noted);
+    fs::rename(store() + ".away", store());
 }
 
 TEST_F(AxisStoreTest, JunkInTheMarkWaitsLikewise) {
@@ -215,6 +289,35 @@ TEST_F(AxisStoreTest, WhatCannotBeWrittenIsNotGiven) {
     EXPECT_NE(run.command_run().find("cannot be written"), std::string::npos);
     EXPECT_EQ(run.store.permission(), first_run);
     fs::rename(store() + ".away", store());
+    EXPECT_EQ(run.command_run(), "");
+    EXPECT_EQ(run.store.permission(), given);
+    run.end();
+}
+
+/// A second by the time that give_permission() is told; the disk itself takes as long as the test wants.
+TEST_F(AxisStoreTest, ADiskThatTakesLongIsNotWaitedForForEver) {
+    Run run = start();
+    disk.holds = true;
+    const base::Instant asked{};
+    EXPECT_EQ(run.store.give_permission(asked), std::nullopt);
+    EXPECT_EQ(run.store.give_permission(asked + 999ms), std::nullopt);
+    EXPECT_EQ(run.store.give_permission(asked + 1s), "the store takes longer than 1 s to be written");
+    EXPECT_EQ(run.store.permission(), first_run);
+    EXPECT_EQ(run.store.give_permission(asked + 5s), std::nullopt) << "asked again";
+    EXPECT_EQ(run.store.give_permission(asked + 6s), "the store takes longer than 1 s to be written");
+    EXPECT_EQ(run.store.permission(), first_run);
+    disk.holds = false;
+    EXPECT_EQ(run.command_run(), "");
+    EXPECT_EQ(run.store.permission(), given);
+    run.end();
+}
+
+TEST_F(AxisStoreTest, ADiskThatFailsGivesNothing) {
+    Run run = start();
+    disk.fails = true;
+    EXPECT_EQ(run.command_run(), store() + ": cannot be written: Input/output error");
+    EXPECT_EQ(run.store.permission(), first_run);
+    disk.fails = false;
     EXPECT_EQ(run.command_run(), "");
     EXPECT_EQ(run.store.permission(), given);
     run.end();

@@ -102,6 +102,29 @@ class Mark(Stored):
             self.moves()
             self.end(service)
 
+    def note_end(self, config):
+        """As the unit's ExecStopPost does."""
+        result = subprocess.run([service_case.NANOPLC, "note-end", config], capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stdout + result.stderr), (0, ""))
+
+    def test_a_power_cut_after_a_crash_is_still_a_crash(self):
+        config = self.stored_run()
+        self.crash(config)
+        self.note_end(config)
+        with open(self.mark, encoding="ascii") as file:
+            state = file.read(7)
+        self.write_mark(state)
+        service, _ = self.expect_waits(config, "watchdog", "the last run did not end in order")
+        self.assertEqual(self.end(service), 0)
+        self.note_end(config)
+        service, _ = self.expect_waits(config, "watchdog", "the last run did not end in order")
+        self.ctl("run")
+        self.moves()
+        self.assertEqual(self.end(service), 0)
+        self.note_end(config)
+        self.start(config)
+        self.moves()
+
     def test_a_crash_waits_through_orderly_starts(self):
         config = self.stored_run()
         self.crash(config)

@@ -97,11 +97,39 @@ class Running(ServiceCase):
         self.start(self.write(self.axis()))
         self.assertEqual(self.ctl("status")["table_crc32"], crc)
 
+    def test_a_first_run_that_a_slow_disk_cannot_note_does_not_start(self):
+        self.plug_in()
+        config = self.write(self.axis(table=self.table), are_new=True)
+        service = self.start(config, LD_PRELOAD=SLOW_DISK, SLOW_DISK_MS="1500", ASAN_OPTIONS="verify_asan_link_order=0")
+        self.ctl("run", exit_code=1)
+        self.until(lambda: "takes longer than 1 s to be written; it has not started" in service.said(), service)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"], status["scans"]), ("stopped", "bad run mark", 0))
+        self.end(service)
+
     def test_a_reset_over_the_port(self):
         self.plug_in()
         self.start(self.write(self.axis()))
         self.ctl("upload", self.table)
         self.ctl("reset")
+        self.moves()
+
+    def test_a_reset_does_not_forget_a_stop_that_is_not_confirmed(self):
+        self.plug_in()
+        service = self.start(self.write(self.axis()))
+        self.ctl("upload", self.table, "--run")
+        self.moves()
+        self.pull_out()
+        self.ctl("stop", exit_code=4)
+        self.ctl("reset")
+        self.until(lambda: "reset over the user's port" in service.said(), service)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["stop_unconfirmed"]), ("stopped", True), service.said())
+        self.ctl("run", exit_code=1)
+        self.plug_in()
+        self.until_status(lambda status: not status["stop_unconfirmed"] and status["link"] != "down")
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        self.ctl("run")
         self.moves()
 
     def test_stored_settings_go_before_the_configuration(self):

@@ -44,6 +44,8 @@ TEST_F(RunMarkerTest, SaysHowTheLastRunEnded) {
     EXPECT_EQ(marker.set(), "");
     EXPECT_EQ(found(), Found::running);
     EXPECT_TRUE(RunMarker(path).of_this_boot());
+    EXPECT_EQ(marker.note_crash(), "");
+    EXPECT_EQ(found(), Found::crashed);
     EXPECT_EQ(marker.clear(), "");
     EXPECT_EQ(found(), Found::ended);
     EXPECT_TRUE(RunMarker(path).of_this_boot());

@@ -52,6 +52,13 @@ struct StopConfirmation : testing::TestWithParam<bool> {
         return found;
     }
 
+    unsigned detail(Event event) const {
+        for (std::size_t i = 0; i < gateway::EventLog::kSlots; ++i)
+            if (controller().log().slot(i).event == static_cast<std::uint8_t>(event))
+                return controller().log().slot(i).detail;
+        return 0;
+    }
+
     World world;
 };
 
@@ -63,6 +70,29 @@ TEST_P(StopConfirmation, ComesAtOnceOnALineInOrder) {
     EXPECT_FALSE(controller().stop_unconfirmed());
     EXPECT_EQ(reg(MODE_REG), 0);
     EXPECT_EQ(count(Event::stop_confirmed), 1);
+}
+
+// More than 40 ms: the link is lost, and the log says why.
+TEST_P(StopConfirmation, NeverComesOverALineThatIsTooLateWhichTheLogNames) {
+    turn();
+    EXPECT_EQ(count(Event::line_late), 0);
+    action::SpoilLine faults;
+    faults.to_motor = faults.from_motor = true;
+    faults.late = 30ms;
+    world.spoil_line(faults);
+    run_for(3s);
+    EXPECT_EQ(count(Event::line_late), 1);
+    EXPECT_GT(detail(Event::line_late), 55U);
+    EXPECT_LT(detail(Event::line_late), 70U);
+    stop();
+    run_for(2s);
+    EXPECT_EQ(reg(MODE_REG), 0) << "told blind";
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    faults.late = 0ms;
+    world.spoil_line(faults);
+    run_for(2s);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(count(Event::line_late), 1);
 }
 
 // The motor hears, and nobody hears it: it is told blind, and nothing is called done.

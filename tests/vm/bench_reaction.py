@@ -67,19 +67,25 @@ cd /share
 cp -r state /tmp/state
 sed -i "s/CHIP/$simulated/" nanoplc.toml
 run() {
-    turn=$1; shift
+    turn=$1; clients=$2; shift 2
     ./surroundings /tmp/motor $lines/sim_gpio0/pull EDGES &
     around=$!
     until [ -e /tmp/motor ]; do usleep 20000; done
     "$@" >said.$turn 2>&1 &
     pid=$!
     until grep -qE "$ready" said.$turn; do usleep 50000; kill -0 $pid || { cat said.$turn; exit 1; }; done
+    if [ $clients -gt 0 ]; then
+        ./clients /tmp/x $clients >clients.$turn 2>&1 &
+        watchers=$!
+        until grep -q connected clients.$turn; do usleep 50000; kill -0 $watchers || { echo clients; exit 1; }; done
+    fi
     usleep 200000
     echo >/sys/kernel/tracing/trace
     kill -USR1 $around
     wait $around
     cat /sys/kernel/tracing/trace >trace.$turn
     rm /tmp/motor
+    if [ $clients -gt 0 ]; then kill -0 $watchers && kill $watchers || { echo clients; exit 1; }; fi
     kill $pid
     wait $pid
     echo "turn $turn"
@@ -90,8 +96,8 @@ run() {
 def script(options):
     lines = [SCRIPT.replace("EDGES", str(options.edges))]
     for turn in range(options.turns):
-        lines.append(f"ready='the sequence runs' run {2 * turn} ./nanoplc --config nanoplc.toml")
-        lines.append(f"ready=ready run {2 * turn + 1} ./smallest /dev/$simulated {LINE} /tmp/motor {PRIORITY}")
+        lines.append(f"ready='the sequence runs' run {2 * turn} {options.clients} ./nanoplc --config nanoplc.toml")
+        lines.append(f"ready=ready run {2 * turn + 1} 0 ./smallest /dev/$simulated {LINE} /tmp/motor {PRIORITY}")
     return "\n".join([*lines, "exit 0"]) + "\n"
 
 
@@ -146,7 +152,7 @@ def run(phases, share, options):
         raise board.CannotBeHad
     phases.say("building nanoplc for the board")
     build(share, options.preset, {"nanoplc": "nanoplc"}, targets=["nanoplc"])
-    for program in ("smallest", "surroundings"):
+    for program in ("clients", "smallest", "surroundings"):
         subprocess.run(["aarch64-linux-gnu-gcc", "-Os", "-Wall", "-Wextra", "-Werror", "-static",
                         f"{board.HERE}/guest/{program}.c", "-o", f"{share}/{program}"], check=True)
     with open(f"{share}/reaction.seq", "w", encoding="utf-8") as file:
@@ -168,6 +174,7 @@ def main():
     parser.add_argument("seqc")
     parser.add_argument("--edges", type=int, default=100, help="in each turn (default: %(default)s)")
     parser.add_argument("--turns", type=int, default=10, help="of each program (default: %(default)s)")
+    parser.add_argument("--clients", type=int, default=0, help="connected to nanoplc's port (default: %(default)s)")
     parser.add_argument("--check", action="store_true", help="only whether it can be measured; the figures do not count")
     parser.add_argument("--instructions", action="store_true",
                         help="the board's clock counts instructions, 2 ns each, whatever else this machine does")

@@ -140,6 +140,7 @@ void Axis::block_start() {
     if (!store_.is_open()) return;
     switch (store_.permission()) {
         case AutostartPermission::given:
+            if (is_unstopped_) sequence.block_start(SafeReason::stop_command);
             return;
         case AutostartPermission::first_run:
             return sequence.wait_for_mark(SafeReason::not_started);
@@ -170,9 +171,10 @@ void Axis::tell_stored_settings() {
                 other.name, other.stored, other.configured));
 }
 
-/// Restarts the axis as after a power-up.
+/// Restarts the axis as after a power-up. A stop that the motor has not confirmed is not forgotten.
 void Axis::reset(base::Instant now) {
     journal_.write(LogLevel::notice, "reset over the user's port");
+    is_unstopped_ = controller_->sequence().stop_unconfirmed();
     if (store_.is_open()) cause_ = gateway::StartCause::power_up;
     begin(now);
 }
@@ -201,6 +203,11 @@ void Axis::give_permission(base::Instant now) {
 void Axis::note_orderly_end() {
     if (const std::string error = store_.mark_ended(); !error.empty())
         journal_.write(LogLevel::warning, error + "; the next start waits for `nanoctl run`");
+}
+
+void Axis::note_unstopped_end() {
+    if (const std::string error = store_.mark_crashed(); !error.empty())
+        journal_.write(LogLevel::warning, error);
 }
 
 void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {

@@ -55,6 +55,8 @@ class Axis {
     void note_running(base::Instant now);
     /// The end was orderly: the next start is not one after a crash.
     void note_orderly_end();
+    /// The motor has not confirmed the stop: the next start is one after a crash, in whichever boot.
+    void note_unstopped_end();
 
     /// Async-signal-safe; called from the fatal-signal handler.
     void write_safe_outputs();
@@ -110,6 +112,7 @@ class Axis {
     std::optional<gateway::StartCause> cause_;  ///< of the next start; nothing: not known without the store
     bool is_running_ = false;                   ///< note_running()
     bool is_giving_ = false;                    ///< give_permission() is under way
+    bool is_unstopped_ = false;                 ///< the motor had not confirmed its stop at the last reset
 
     AxisStore store_{journal_, config_.name};
     AxisPins pins_;

@@ -11,6 +11,10 @@ namespace {
 namespace fs = std::filesystem;
 using Found = hal_linux::RunMarker::Found;
 
+std::string run_mark(const std::string& folder) {
+    return folder + "/running";
+}
+
 }  // namespace
 
 ports::Storage& AxisStore::storage() {
@@ -40,7 +44,7 @@ std::string AxisStore::open(const std::string& folder) {
 void AxisStore::check_owner(const std::string& path) {
     using enum AutostartPermission;
     owner_.emplace(path, axis_);
-    const bool has_run_here = marker_->found() == Found::ended || marker_->found() == Found::running;
+    const bool has_run_here = marker_->found() >= Found::ended && marker_->found() != Found::damaged;
     switch (owner_->found()) {
         case StoreOwner::Found::whole:
             permission_ = owner_->permission();
@@ -76,7 +80,7 @@ void AxisStore::check_owner(const std::string& path) {
 /// The stored data are lost if the marker shows earlier runs and the store is missing.
 std::string AxisStore::check_marker(const std::string& folder, const std::string& path) {
     std::error_code error;
-    marker_.emplace(folder + "/running");
+    marker_.emplace(run_mark(folder));
     const bool has_store = fs::exists(path, error);
     const Found found = marker_->found();
     const bool is_new = found == Found::missing && !has_store;
@@ -118,7 +122,7 @@ bool AxisStore::is_after_crash(const BoardStart& board) {
 bool AxisStore::was_cut_off(const BoardStart& board) const {
     const bool is_cut_off = marker_->found() == Found::running;
     const bool of_this_boot = marker_->of_this_boot();
-    if (is_cut_off && of_this_boot) return true;
+    if (marker_->found() == Found::crashed || (is_cut_off && of_this_boot)) return true;
     if (board.by_watchdog && !(of_this_boot && marker_->found() == Found::ended)) {
         journal_.write(LogLevel::error, "a watchdog has reset the board");
         return true;
@@ -131,11 +135,13 @@ bool AxisStore::was_cut_off(const BoardStart& board) const {
     return is_cut_off && board.power_cut_waits;
 }
 
+/// The permission first: a power cut between the two must not make a power cut of a crash.
 std::string AxisStore::mark_running() {
     if (!storage_) return {};
-    std::string error = marker_->set();
-    if (error.empty() && !owner_->is_writing() && !owner_->is_anothers() && !owner_->says(permission_))
+    std::string error;
+    if (!owner_->is_writing() && !owner_->is_anothers() && !owner_->says(permission_))
         error = owner_->write(permission_);
+    if (error.empty()) error = marker_->set();
     is_marked_ = error.empty();
     return error;
 }
@@ -158,6 +164,16 @@ std::optional<std::string> AxisStore::give_permission(base::Instant now) {
 
 std::string AxisStore::mark_ended() {
     return storage_ ? marker_->clear() : std::string();
+}
+
+std::string AxisStore::mark_crashed() {
+    return storage_ ? marker_->note_crash() : std::string();
+}
+
+std::string note_crash(const std::string& folder) {
+    hal_linux::RunMarker marker(run_mark(folder));
+    const bool crashed = marker.found() == Found::running && marker.of_this_boot();
+    return crashed ? marker.note_crash() : std::string();
 }
 
 }  // namespace nplc::boards

@@ -46,6 +46,8 @@ class AxisStore {
     /// To be called until it is answered: empty, and the permission is given; or why it is not, one line.
     std::optional<std::string> give_permission(base::Instant now);
     std::string mark_ended();
+    /// The end is not orderly: the motor may be moving.
+    std::string mark_crashed();
     bool is_marked() const { return is_marked_; }
 
   private:
@@ -67,5 +69,9 @@ class AxisStore {
     std::optional<hal_linux::BackgroundStorage> storage_;
     NoStorage no_storage_{kMemory};
 };
+
+/// After the end of the service: an axis in this folder that was running in this boot has crashed, which the
+/// next start knows even after a power cut. Empty, or a one-line error.
+std::string note_crash(const std::string& folder);
 
 }  // namespace nplc::boards

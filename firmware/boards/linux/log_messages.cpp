@@ -84,6 +84,13 @@ std::string by_whom(std::uint16_t detail) {
     return std::string(registers::gateway::name_of(static_cast<registers::gateway::Origin>(detail >> 8)));
 }
 
+LogMessage of_late_poll(std::uint16_t milliseconds) {
+    return {LogLevel::warning,
+            fmt::format("polled {} ms late, beyond the setting poll_limit; give the service real-time "
+                        "priority, or the machine less to do",
+                        milliseconds)};
+}
+
 /// AxisReporter adds the names and the old and new values.
 LogMessage of_set_points(Event event, std::uint16_t detail) {
     const unsigned number = detail & 0xFF;
@@ -160,11 +167,9 @@ LogMessage in_words(const gateway::EventLog::Entry& entry) {
         case Event::crashed_at:
             return {LogLevel::error, fmt::format("it crashed at code address {}", entry.detail)};
         case Event::polled_late:
-            return {
-                LogLevel::warning,
-                fmt::format("polled {} ms late, beyond the setting poll_limit; give the service real-time "
-                            "priority, or the machine less to do",
-                            entry.detail)};
+            return of_late_poll(entry.detail);
+        case Event::line_late:
+            return {LogLevel::debug, fmt::format("the motor's line is {} ms late", entry.detail)};
         case Event::motor_fault:
             return {LogLevel::debug, fmt::format("the driver's fault {}", entry.detail)};
         case Event::set_points_changed:

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "arguments/arguments.h"
+#include "axis_store.h"
 #include "command_line/generated.h"
 #include "config.h"
 #include "exit_codes.h"
@@ -110,6 +111,20 @@ int check(const Options& options) {
     return kDone;
 }
 
+/// To be called at each end of the service, orderly or not.
+int note_ends(const std::string& file) {
+    const Loaded loaded = load(file);
+    if (!loaded.is_whole) return kWrong;
+    int outcome = kDone;
+    for (const AxisConfig& axis : loaded.config.axes) {
+        const std::string error = note_crash(loaded.config.state_directory + "/" + axis.name);
+        if (error.empty()) continue;
+        host::complain(error);
+        outcome = kNoDevice;
+    }
+    return outcome;
+}
+
 int print_wiring(const std::string& file) {
     const Loaded loaded = load(file);
     if (!loaded.is_whole) return kWrong;
@@ -155,13 +170,16 @@ int main(int argc, char** argv) {
     app.add_subcommand("wiring", "Print what is to be joined to what")
         ->add_option("file", options.file, "The configuration")
         ->required();
+    app.add_subcommand("note-end", "After the end of the service: write down which axes have crashed")
+        ->add_option("file", options.file, "The configuration")
+        ->required();
     command_line::Common common;
     common.program = "nanoplc";
     command_line::add_generated(app, common,
                                 {.version = NPLC_VERSION,
                                  .title = "the gateway firmware on a Linux board",
                                  .section = 8,
-                                 .file_commands = {"check-config", "modbus-map", "wiring"},
+                                 .file_commands = {"check-config", "modbus-map", "note-end", "wiring"},
                                  .file_options = {"--config"}});
     const arguments::ParseResult outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::ParseResult::Kind::told) return outcome.exit_code;
@@ -171,6 +189,7 @@ int main(int argc, char** argv) {
     }
     if (app.got_subcommand("check-config")) return check(options);
     if (app.got_subcommand("modbus-map")) return print_modbus_map(options.file, options.markdown);
+    if (app.got_subcommand("note-end")) return note_ends(options.file);
     if (app.got_subcommand("wiring")) return print_wiring(options.file);
     if (app.got_subcommand("completion") || app.got_subcommand("man")) return common.exit_code;
     return run_service(options.config);

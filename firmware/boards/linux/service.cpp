@@ -163,8 +163,7 @@ void Service::serve_until_signal() {
 
 void Service::tell_unstopped(const Axis& axis, const std::string& why) {
     journal_.write(LogLevel::warning, axis.name() + ": the motor " + why +
-                                          "; it may be moving. If the sequence ran, the next start waits for "
-                                          "`nanoctl run`");
+                                          "; it may be moving. The next start waits for `nanoctl run`");
 }
 
 void Service::end_in_order() {
@@ -180,11 +179,13 @@ void Service::end_in_order() {
         wait_and_serve(limit);
     } while (clock_.now() < limit && !std::all_of(axes_.begin(), axes_.end(), stopped));
     for (const auto& axis : axes_) {
-        if (!axis->motor_answers())
-            tell_unstopped(*axis, "does not answer and could not be told to stop");
-        else if (!axis->has_stopped())
-            tell_unstopped(*axis, "has not confirmed the stop");
-        if (axis->has_stopped()) axis->note_orderly_end();
+        if (axis->has_stopped()) {
+            axis->note_orderly_end();
+            continue;
+        }
+        tell_unstopped(*axis, axis->motor_answers() ? "has not confirmed the stop"
+                                                    : "does not answer and could not be told to stop");
+        axis->note_unstopped_end();
     }
     last_resort.fill(nullptr);
     panel_.close();

@@ -165,6 +165,9 @@ std::string event_in_words(std::uint8_t code, std::uint16_t detail) {
             return fmt::format("{} by {}", name, own::name_of(static_cast<own::Origin>(detail >> 8)));
         case own::Event::stop_confirmed:
             return fmt::format("{} after {} ms", name, detail);
+        case own::Event::line_late:
+            return fmt::format("{}, by {} ms: set the latency timer of its USB adapter to 1 ms", name,
+                               detail);
         case own::Event::set_points_taken:
             return fmt::format("{}: {}", name, detail);
         case own::Event::upload_aborted:

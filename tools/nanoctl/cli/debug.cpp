@@ -187,6 +187,10 @@ std::string detail_text(const LogEntry& entry, const KnownChanges& known) {
             return entry.detail == 1 ? ", cannot go on from there" : "";
         case gw::Event::stop_confirmed:
             return fmt::format(", {} ms after it was asked", entry.detail);
+        case gw::Event::line_late:
+            return fmt::format(
+                ", {} ms where 40 ms are allowed: set the latency timer of its USB adapter to 1 ms",
+                entry.detail);
         case gw::Event::upload_failed:
             return fmt::format(", {}", gw::describe(static_cast<gw::Result>(entry.detail & 0xFF)));
         case gw::Event::motor_fault:

@@ -212,6 +212,7 @@ class Gateway {
     bool settles_too_long(base::Instant now) const { return now >= settling_ends(); }
     void watch_link(base::Instant now);
     void note_motor_fault();
+    void note_late_line();
     void expire_forces(base::Instant now);
     void block(SafeReason reason);
     bool needs_proof() const;
@@ -232,6 +233,7 @@ class Gateway {
     bool is_mark_refused_ = false;  ///< of the last run()
     SafeReason waits_because_ = SafeReason::none;  ///< until somebody's run() is marked in the store
     std::uint8_t motor_fault_ = 0;                 ///< as noted in the log
+    bool line_is_late_ = false;                    ///< likewise
     StartPermission permission_;
     SafeState safe_;
     std::uint32_t stop_asked_ = 0;

@@ -5,12 +5,7 @@
 #include <type_traits>
 
 #include "base/time.h"
-
-/// Lines may delay characters, as a USB adapter does. A microcontroller's own UART does not, and its image is
-/// built without this.
-#ifndef NPLC_LATE_LINES
-#define NPLC_LATE_LINES 1
-#endif
+#include "motor/motor.h"
 
 namespace nplc::motor {
 
@@ -18,7 +13,7 @@ namespace nplc::motor {
 /// decrease slowly.
 class MeasuredEchoTime {
   public:
-    static constexpr base::Microseconds kMost{40'000};  ///< a line with a longer delay is not used
+    static constexpr base::Microseconds kMost = kLongestEcho;
     static constexpr base::Microseconds kPatience{
         60'000};  ///< without an estimate, or where an early repeat does harm
 
@@ -78,6 +73,6 @@ class NoEchoTime {
     base::Microseconds proof(base::Microseconds least, bool) const { return least; }
 };
 
-using EchoTime = std::conditional_t<NPLC_LATE_LINES != 0, MeasuredEchoTime, NoEchoTime>;
+using EchoTime = std::conditional_t<kLateLines, MeasuredEchoTime, NoEchoTime>;
 
 }  // namespace nplc::motor

@@ -15,27 +15,26 @@ namespace nplc::motor {
 /// (MIDI.md in this folder). Does not send it and changes no state of the drive.
 class MidiGuidance {
   public:
-    using Message = std::optional<MidiMessage>;
     using Limitation = registers::midi::Limitation;
 
     MidiGuidance(const MidiRegisters& registers, const MidiDrive& drive, const MidiMotion& motion)
         : registers_(registers), drive_(drive), motion_(motion) {}
 
     /// TORQUE or TOLERANCE, if the drive's value differs.
-    Message next_parameter() const;
-    /// For velocity mode (MODE_REG 1) and position mode (2). Empty while the command must wait for
+    MidiNext next_parameter() const;
+    /// For velocity mode (MODE_REG 1) and position mode (2). Nothing while the command must wait for
     /// standstill, or the drive already does what is wanted, or no drive can do it: then limitation() has the
     /// reason.
-    Message next_motion();
+    MidiNext next_motion();
     Limitation limitation() const { return limitation_; }
     /// P_SOLL in increments; empty if it is beyond a drive's range.
     std::optional<std::int32_t> target() const;
 
   private:
-    Message next_for_run();
-    Message next_for_move();
-    Message stop_first() const;
-    Message refuse(Limitation why);
+    MidiNext next_for_run();
+    MidiNext next_for_move();
+    MidiNext stop_first() const;
+    MidiNext refuse(Limitation why);
     bool fit_ramp(std::uint16_t period, std::uint8_t& ramp);
 
     const MidiRegisters& registers_;

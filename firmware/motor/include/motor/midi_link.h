@@ -18,6 +18,33 @@ struct MidiMessage {
     bool operator==(const MidiMessage&) const = default;
 };
 
+/// A message that is to be sent, or nothing, as one number: on a microcontroller it stays in two registers,
+/// where a std::optional<MidiMessage> goes through memory, at 200 bytes of flash.
+enum class MidiNext : std::uint64_t { nothing = 0 };
+
+constexpr MidiNext next_of(const MidiMessage& message) {
+    const std::uint32_t about = 0x100'0000U | std::uint32_t{message.sub_index} << 16U |
+                                std::uint32_t{message.number} << 8U | (message.is_query ? 1U : 0U);
+    return MidiNext{std::uint64_t{about} << 32U | message.data};
+}
+
+/// Of one that is not `nothing`.
+constexpr MidiMessage message_of(MidiNext next) {
+    const auto about = static_cast<std::uint32_t>(static_cast<std::uint64_t>(next) >> 32U);
+    return {.is_query = (about & 1U) != 0,
+            .number = static_cast<std::uint8_t>(about >> 8U),
+            .sub_index = static_cast<std::uint8_t>(about >> 16U),
+            .data = static_cast<std::uint32_t>(next)};
+}
+
+constexpr MidiNext midi_query(std::uint8_t number, std::uint8_t sub_index = 0) {
+    return next_of({.is_query = true, .number = number, .sub_index = sub_index});
+}
+
+constexpr MidiNext midi_command(std::uint8_t number, std::uint32_t data = 0) {
+    return next_of({.number = number, .data = data});
+}
+
 /// The outcome of a message.
 struct MidiOutcome {
     enum class Kind : std::uint8_t {

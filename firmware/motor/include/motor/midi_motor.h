@@ -49,7 +49,7 @@ class MidiMotor final : public Motor {
     bool stop_confirmed() const override { return !stop_wanted_; }
     void give_up_stop() override {
         stop_wanted_ = stop_hard_ = false;
-        if (kWholeMidiStop) retry_at_ = {};
+        retry_at_ = {};
     }
     bool begin_access(const Access& access) override { return session_.is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
@@ -79,8 +79,6 @@ class MidiMotor final : public Motor {
     const MidiOutcome& probe() const { return probe_; }
 
   private:
-    using Message = std::optional<MidiMessage>;
-
     // Outcomes of messages.
     void lose_link(MidiFault why, base::Instant now);
     void look_for_trouble(base::Instant now);
@@ -103,10 +101,10 @@ class MidiMotor final : public Motor {
 
     // Selection of the next message.
     void work(base::Instant now);
-    Message next_message(base::Instant now);
-    Message next_query(base::Instant now);
-    Message next_command(base::Instant now);
-    Message next_access();
+    MidiNext next_message(base::Instant now);
+    MidiNext next_query(base::Instant now);
+    MidiNext next_command(base::Instant now);
+    MidiNext next_access();
     bool has_work(base::Instant now) const;
 
     // Effects of an order.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "base/time.h"
@@ -27,14 +26,14 @@ class MidiSession {
     /// That stop is due, whatever message is under way.
     bool is_stop_due(base::Instant now) const { return kWholeMidiStop && is_blind() && now >= next_query_; }
     /// While it is not up: what is to be sent.
-    std::optional<MidiMessage> start_up(bool stop_wanted, base::Instant now);
+    MidiNext start_up(bool stop_wanted, base::Instant now);
     void begin_stop() { stop_pace_.begin_anew(); }
     /// A stop that was not confirmed: until it is sent again.
     base::Microseconds stop_pause() { return stop_pace_.next(); }
     /// While it is up: a query must be answered before anything else is sent.
     bool must_ask() const { return must_ask_; }
-    /// The next cyclic query; empty during the pause after the last answer.
-    std::optional<MidiMessage> next_query(bool needs_position, bool at_once, base::Instant now);
+    /// The next cyclic query; nothing during the pause after the last answer.
+    MidiNext next_query(bool needs_position, bool at_once, base::Instant now);
     /// While the line is free: the time of the next message; kNever if there is nothing to send.
     base::Instant next_send(bool has_work, base::Instant now) const;
 

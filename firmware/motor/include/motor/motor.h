@@ -6,7 +6,16 @@
 #include "registers/vocabulary.h"
 #include "sequencer/state.h"
 
+/// Lines may delay characters, as a USB adapter does. A microcontroller's own UART does not, and its image is
+/// built without this.
+#ifndef NPLC_LATE_LINES
+#define NPLC_LATE_LINES 1
+#endif
+
 namespace nplc::motor {
+
+inline constexpr bool kLateLines = NPLC_LATE_LINES != 0;
+inline constexpr base::Microseconds kLongestEcho{40'000};  ///< a line with a longer delay is not used
 
 /// An order of a sequence to a drive.
 using Order = sequencer::MotorOrder;

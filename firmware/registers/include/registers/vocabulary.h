@@ -108,6 +108,7 @@ enum class Event : std::uint8_t {
     recipe_loaded = 36,       ///< 36 to 38: detail: its number in bits 7..0, origin in bits 15..8
     recipe_saved = 37,
     recipe_deleted = 38,
+    line_late = 39,  ///< the motor's answers come too late for the link; detail: milliseconds
 };
 
 constexpr std::string_view name_of(Event event) {
@@ -134,7 +135,8 @@ constexpr std::string_view name_of(Event event) {
                                   {set_points_dropped, "set-points fell back to their defaults"},
                                   {recipe_loaded, "recipe loaded"},
                                   {recipe_saved, "recipe saved"},
-                                  {recipe_deleted, "recipe deleted"}});
+                                  {recipe_deleted, "recipe deleted"},
+                                  {line_late, "the motor's line is too late"}});
 }
 
 /// For bits 7..0 of a log entry's second register.
@@ -183,7 +185,8 @@ constexpr std::string_view key_of_log_code(std::uint8_t code) {
                                        "set_points_dropped",
                                        "recipe_loaded",
                                        "recipe_saved",
-                                       "recipe_deleted"};
+                                       "recipe_deleted",
+                                       "line_late"};
     return code < sizeof kKeys / sizeof *kKeys ? kKeys[code] : "";
 }
 

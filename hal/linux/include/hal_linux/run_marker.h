@@ -14,6 +14,7 @@ class RunMarker {
         fresh,    ///< created, and never set
         ended,    ///< orderly end
         running,  ///< no orderly end: killed, crashed, reset, or a power cut
+        crashed,  ///< no orderly end, and it was no power cut
         damaged,  ///< or unreadable
     };
 
@@ -33,6 +34,8 @@ class RunMarker {
     std::string set();
     /// Records an orderly end.
     std::string clear();
+    /// Records a disorderly end, which a power cut afterwards does not hide.
+    std::string note_crash();
 
   private:
     void look();
