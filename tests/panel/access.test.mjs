@@ -37,6 +37,8 @@ for (const { name, ...options } of screens) {
     await painted(page);
     const width = () => page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     assert.ok((await width()) <= 0, "watching");
+    const bottom = async (selector) => page.$eval(selector, (e) => e.getBoundingClientRect().bottom);
+    assert.ok((await bottom(".u-legend")) <= (await bottom(".trend-panel")), "the legend is in its panel");
     assert.deepEqual(await seriousFindings(page), []);
     await operate(page, machine.token);
     assert.ok((await width()) <= 0, "operating");
@@ -57,6 +59,11 @@ for (const { name, ...options } of screens) {
     assert.deepEqual(await seriousFindings(page), []);
     machine.child.kill("SIGSTOP"); // old values are read too
     await page.waitForFunction(() => document.body.classList.contains("old"));
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    await page.waitForFunction(() => { // wherever one has scrolled to
+      const bar = document.getElementById("link-bar").getBoundingClientRect();
+      return bar.height > 0 && bar.top >= 0 && bar.bottom <= innerHeight;
+    });
     assert.deepEqual(await findings(page), []);
     await page.context().close();
     await machine.stop();

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { createServer } from "node:net";
+import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -169,6 +169,29 @@ export const freePort = () =>
       server.close(() => resolve(port));
     });
   });
+
+/** The same server over a line of its own. `hush`: what is connected falls silent without an end, as if a cable was
+    pulled; new connections are served. */
+export async function quietLine(url) {
+  const pairs = new Set();
+  const server = createServer((socket) => {
+    const other = connect(Number(new URL(url).port), "127.0.0.1");
+    const pair = [socket, other];
+    pairs.add(pair);
+    socket.pipe(other);
+    other.pipe(socket);
+    for (const [one, rest] of [pair, [other, socket]]) one.on("error", () => {}).on("close", () => pairs.delete(pair) && rest.destroy());
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return {
+    url: `http://127.0.0.1:${server.address().port}/`,
+    hush() {
+      for (const pair of pairs) for (const one of pair) one.unpipe().pause();
+      pairs.clear();
+    },
+    close: () => server.close(),
+  };
+}
 
 const kAxes = { x: join(examples, "pick_and_place.seq"), y: join(examples, "fill_and_count.seq") };
 

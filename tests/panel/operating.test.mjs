@@ -123,6 +123,10 @@ test("forces are shown with their time, last while the page is there, and end wi
     await operate(page, machine.token);
     await page.selectOption('select[aria-label="force Guard"]', "1");
     await lamp(watcher, "Guard", 1);
+    for (const one of [page, watcher]) { // what is noted of it leaves its name on one line
+      const name = await one.locator(".signal-name", { hasText: "Guard" }).boundingBox();
+      assert.ok(name.height < 30, `${name.height} px`);
+    }
     await page.selectOption('select[aria-label="force OUT1"]', "1");
     await lamp(watcher, "OUT1", 1);
     await hasText(watcher, "#fact-forces", "end in");

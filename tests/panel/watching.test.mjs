@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { Client, closeBrowser, examples, file, hasText, inStep, openPage, painted, simulator, textOf } from "./machine.mjs";
+import { Client, closeBrowser, examples, file, hasText, inStep, openPage, operate, painted, quietLine, simulator, textOf } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -56,7 +56,7 @@ test("hover and focus tell a step's terms in the program's names and units, and 
     await hasText(page, "#waits-title", "Step POWER_UP (not active)");
     await hasText(page, "#waits", "Place (P2) := 60 mm");
     await page.hover('.box[data-step="3"]');
-    await hasText(page, "#waits", "POSITION(Home)");
+    await hasText(page, "#waits", "POSITION(Home): 0 mm");
     await page.mouse.move(2, 2);
     await hasText(page, "#waits-title", "Active step: Idle");
     await page.focus("#search");
@@ -137,12 +137,62 @@ test("the server is killed and started again: the page says so and comes back by
   await machine.ended;
   await hasText(page, "#link-bar", "connection is lost");
   assert.match(await page.evaluate(() => document.body.className), /old/);
+  assert.match(await textOf(page, "#state-text"), /\(old\)$/);
+  assert.match(await page.title(), /\(old\)$/);
+  await hasText(page, "#seat", "not known");
   machine = await simulator(program, { scenario: kCycle, port });
   await painted(page);
   await page.waitForFunction(() => document.getElementById("link-bar").hidden);
   await inStep(page, 2);
   await machine.stop();
   await page.context().close();
+});
+
+test("a line that falls silent without an end: a stop says so, and the page comes back over a new one", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const line = await quietLine(machine.url);
+    const page = await openPage(line.url);
+    await painted(page);
+    line.hush();
+    await page.click("#do-stop");
+    await hasText(page, "#notices", "No answer to stop yet: the machine may still be running.");
+    await hasText(page, "#link-bar", "connection is lost");
+    await hasText(page, "#notices", "whether it was done is not known");
+    await painted(page);
+    await page.waitForFunction(() => document.getElementById("link-bar").hidden);
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+    line.close();
+  }));
+
+test("the motor's values are shown with their age once its line is cut, and leave a gap in the trend", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await hasText(page, "#trend-now", "rpm");
+    assert.doesNotMatch(await textOf(page, "#trend-now"), /old/);
+    await operate(page, machine.token);
+    await page.click("#sim-cut");
+    await hasText(page, "#trend-now", "s old");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#trend-tools >> text=CSV")]);
+    assert.match(readFileSync(await download.path(), "utf8").trimEnd().split("\n").at(-1), /,,,$/);
+    await page.click("#sim-cut");
+    await page.waitForFunction(() => !document.getElementById("trend-now").textContent.includes("old"));
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
+test("names as long as they may be stay in their boxes", async () => {
+  const long = (i) => `Step_${i}_WITH_MANY_WIDE_LETTERS_MW`.slice(0, [15, 16, 17, 32][i]);
+  const steps = Array.from({ length: 4 }, (_, i) => `STEP ${long(i)}:\n    ${i === 0 ? "OWN ERROR;\n    " : ""}OUT Left_gripper, Right_gripper, Warning_lamp;\n    IF Go THEN NEXT := ${long((i + 1) % 4)}; END_IF\nEND_STEP\n`);
+  const program = file("seq", `PROGRAM Long\nMOTOR MAC140;\nVAR_INPUT Go AT %IX0.0 : BOOL; END_VAR\nVAR_OUTPUT Left_gripper AT %QX0.0 : BOOL; Right_gripper AT %QX0.1 : BOOL; Warning_lamp AT %QX0.2 : BOOL; END_VAR\nON ERROR NEXT := ${long(0)};\nPOWER_UP NEXT := ${long(0)}; END_POWER_UP\n${steps.join("")}END_PROGRAM\n`);
+  await withMachine(program, {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    const sizes = await page.$$eval(".box", (all) => all.flatMap((box) => [...box.querySelectorAll("text")].map((t) => [t.textContent, t.getBBox().width, box.querySelector("rect").getBBox().width])));
+    for (const [text, width, room] of sizes) assert.ok(width < room, `${text}: ${width} in ${room}`);
+    await page.context().close();
+  });
 });
 
 test("a program that is halted: data older than a second are shown as old", () =>

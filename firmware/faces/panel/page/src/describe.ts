@@ -25,11 +25,21 @@ function valueInWords(axis: Axis, term: Term): string {
   return `${Number((raw / info.per_unit).toPrecision(4))} ${info.unit}`;
 }
 
-/** The register behind POSITION(P2) by its own name: POSITION(Place). */
+/** What the program has in a register: of a set-point the value in force, else what all its writes give it. */
+function contentOf(axis: Axis, plain: string, own: string | undefined): string {
+  const setPoint = axis.setPoints.values.find((one) => one.name === own);
+  if (setPoint) return `${setPoint.in_force} ${setPoint.unit}`.trim();
+  const writes = axis.program?.terms.filter((term) => term.isWrite && axis.program?.registers[term.register]?.name === plain) ?? [];
+  const values = new Set(writes.map((term) => valueInWords(axis, term)));
+  return values.size === 1 ? [...values][0] : "";
+}
+
+/** The register behind POSITION(P2) by its own name, and what is in it: POSITION(Place): 60 mm. */
 function withNames(axis: Axis, order: string): string {
-  return order.replace(/\(([PVATLZ]\d)\)/, (all, plain: string) => {
+  return order.replace(/\(([PVATLZ]\d)\)/, (_, plain: string) => {
     const own = axis.program?.symbols.registers?.find((r) => r.register === plain)?.name;
-    return own ? `(${own})` : all;
+    const content = contentOf(axis, plain, own);
+    return `(${own ?? plain})${content && `: ${content}`}`;
   });
 }
 

@@ -96,7 +96,7 @@ export class StepDrawing {
     const box = svg("g", { class: "box", transform: `translate(${at.x} ${at.y})`, tabindex: step === 0 ? 0 : -1, role: "button", "data-step": step },
       svg("rect", { width: kBoxWidth, height: kBoxHeight, rx: 8 }),
       svg("circle", { cx: 0, cy: kBoxHeight / 2, r: 6, class: "break" }),
-      svg("text", { x: kBoxWidth / 2, y: 20, class: name.length > 17 ? "name long" : "name", ...(name.length > 22 ? { textLength: kBoxWidth - 10, lengthAdjust: "spacingAndGlyphs" } : {}) }, name),
+      svg("text", { x: kBoxWidth / 2, y: 20, class: "name" }, name),
       " ",  // else readers take name and number for one word
       svg("text", { x: kBoxWidth / 2, y: 36, class: "number" }, this.note(step, self)));
     box.addEventListener("keydown", (e) => this.key(e, step));
@@ -109,6 +109,16 @@ export class StepDrawing {
     box.addEventListener("pointerleave", () => this.point(null));
     this.boxes.set(step, box);
     this.root.append(box);
+    for (const text of box.querySelectorAll("text")) this.fitText(text);
+  }
+
+  /** How wide a name is depends on the machine's fonts. */
+  private fitText(text: SVGTextElement): void {
+    const room = kBoxWidth - 12;
+    if (text.getComputedTextLength() > room) text.classList.add("long");
+    if (text.getComputedTextLength() <= room) return;
+    setAttribute(text, "textLength", String(room));
+    setAttribute(text, "lengthAdjust", "spacingAndGlyphs");
   }
 
   /** What the mouse is on or the keyboard has come to is told, without being chosen. */

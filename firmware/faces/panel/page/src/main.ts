@@ -1,5 +1,5 @@
 // The page: what comes over the wire goes into the axes, and once a frame onto the screen.
-import { byId, h, setAttribute, setClass, setText } from "./dom";
+import { byId, h, setAttribute, setClass, setText, withCode } from "./dom";
 import { StepDrawing } from "./drawing";
 import { Operation } from "./operate";
 import { SetPoints } from "./set_points";
@@ -11,7 +11,7 @@ import { Upload } from "./upload";
 import { Waits } from "./waits";
 import { type Cause, whyNot } from "./why";
 import { Wire, type LinkState, type Message } from "./wire";
-import { clock, duration, hex, kLinks, kReasons } from "./words";
+import { clock, duration, hex, kLinks, kReasons, wallTime } from "./words";
 
 const kProtocol = 1;
 const kOld = 1000; // ms: data older than this is shown as old
@@ -147,12 +147,13 @@ function paint(): void {
   const age = axis ? performance.now() - axis.imageAt : Infinity;
   paintLink(age);
   if (!axis || axis.imageAt === 0) return;
-  const words = axis.stateInWords();
+  const isOld = document.body.classList.contains("old");
+  const words = `${axis.stateInWords()}${isOld ? " (old)" : ""}`;
   setText(byId("state-text"), words);
   const kind = axis.stopUnconfirmed ? "bad" : axis.status(6) || axis.error ? (axis.runState === 0 && [1, 2].includes(axis.r.SAFE_REASON) ? "stopped" : "bad") : axis.isRunning ? "run" : "held";
-  setAttribute(byId("state"), "data-kind", kind);
+  setAttribute(byId("state"), "data-kind", isOld ? "old" : kind);
   setAttribute(byId("state"), "title", kReasons[axis.r.SAFE_REASON]?.remedy ?? "");
-  paintProgram(axis);
+  paintProgram(axis, words);
   drawing.update(axis);
   drawing.tell(byId("drawing-words"), axis);
   waits.update(axis, drawing.shown);
@@ -169,22 +170,27 @@ function paint(): void {
   document.body.dataset.step = String(axis.step);
 }
 
-function paintProgram(axis: Axis): void {
+function paintProgram(axis: Axis, state: string): void {
   const name = axis.programName();
   setText(byId("program"), name);
-  const title = `${name}${axes.size > 1 ? ` (${axis.info.name})` : ""}: ${axis.stateInWords()}`;
+  const title = `${name}${axes.size > 1 ? ` (${axis.info.name})` : ""}: ${state}`;
   if (document.title !== title) document.title = title;
   const program = axis.program;
   const active = [...axis.events].reverse().find((event) => event.code === 22);
   const parts = [axis.info.motor];
   if (program && axis.hasTable) {
     parts.push(`${program.terms.length} terms`, `CRC-32 ${hex(program.crc)}`, program.proof ? `proved (${program.proof.slice(0, 8)}…)` : "no certificate");
-    if (program.file) parts.push(program.file);
-    if (active) parts.push(`active since ${clock(active.ms)} of uptime`);
-    else if (axis.events[0]?.n === 1) parts.push("active since the start");
+    if (program.file) parts.push(program.file.replace(/^.*\//, ""));
+    if (active) parts.push(`active since ${clock(active.ms)} of uptime${dateOf(axis, active.ms)}`);
+    else if (axis.events[0]?.n === 1) parts.push(`active since the start${dateOf(axis, 0)}`);
     if (axis.status(13)) parts.push("another table is stored");
   }
   setText(byId("loaded"), parts.filter(Boolean).join(" · "));
+}
+
+/** A simulation has a time of its own. */
+function dateOf(axis: Axis, uptime: number): string {
+  return simulated ? "" : `, ${wallTime(axis.r.UPTIME ?? 0, uptime).toLocaleString([], { dateStyle: "medium", timeStyle: "short" })}`;
 }
 
 function paintEvents(axis: Axis): void {
@@ -193,7 +199,7 @@ function paintEvents(axis: Axis): void {
   shownEvents = last;
   const rows = [...axis.events].reverse().slice(0, 100).map((event) =>
     h("li", { class: (event.code > 2 && event.code < 16) || event.code === kDropped ? "event bad" : "event" },
-      h("time", {}, clock(event.ms)), h("span", { class: "event-text" }, event.text), h("span", { class: "event-step" }, axis.stepName(event.step))));
+      h("time", { title: simulated ? null : wallTime(axis.r.UPTIME ?? 0, event.ms).toLocaleString() }, clock(event.ms)), h("span", { class: "event-text" }, event.text), h("span", { class: "event-step" }, axis.stepName(event.step))));
   byId("events").replaceChildren(...(rows.length ? rows : [h("li", { class: "quiet" }, "Nothing has happened yet.")]));
 }
 
@@ -203,7 +209,7 @@ function paintWhy(axis: Axis): void {
   if (text === shownWhy) return;
   shownWhy = text;
   byId("why").replaceChildren(...(findings.length ? findings : [{ text: "Nothing keeps it from moving.", basis: "", remedy: "" }]).map((f) =>
-    h("li", {}, h("strong", {}, f.text), f.remedy && ` ${f.remedy}`, f.basis && h("span", { class: "quiet" }, ` ${f.basis}`))));
+    h("li", {}, h("strong", {}, ...withCode(f.text)), " ", ...withCode(f.remedy), f.basis && h("span", { class: "quiet" }, ` ${f.basis}`))));
 }
 
 // What the user does.

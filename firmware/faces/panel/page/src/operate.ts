@@ -4,6 +4,7 @@ import type { Axis } from "./state";
 import type { Answer, Wire } from "./wire";
 
 const kTokenKey = "nanoplc-token";
+const kStopPatience = 1500; // ms: the program answers a stop within 1 s, whatever comes of it
 // Of an answer: firmware/gateway/REGISTERS.md.
 const kSeatTaken = 22;
 
@@ -158,8 +159,10 @@ export class Operation {
   }
 
   private async stopAxis(name: string, axis: string): Promise<void> {
-    const answer = await this.ask({ do: "command", name, axis }, name);
     const of = this.axis ? "" : `${axis}: `;
+    const late = setTimeout(() => this.notice(`${of}No answer to ${name} yet: the machine may still be running.`, true), kStopPatience);
+    const answer = await this.ask({ do: "command", name, axis }, name);
+    clearTimeout(late);
     if (answer.result === "done") this.notice(of + (name === "hold" ? "The sequence is being held." : "Stopped; the outputs have their safe values."));
     else if (answer.code !== 17 && answer.code !== 6) this.notice(`${of}Not confirmed: the machine may still be running.`, true);
   }
@@ -195,11 +198,11 @@ export class Operation {
   update(axis: Axis): void {
     const enable = (id: string, on: boolean): void => setAttribute(byId(id), "aria-disabled", String(!on));
     const may = this.operates;
-    enable("do-run", may && axis.hasTable && (axis.isStopped || axis.isHeld));
+    enable("do-run", may && axis.hasTable && !axis.stopUnconfirmed && (axis.isStopped || axis.isHeld));
     enable("do-step", may && axis.hasTable && !axis.isRunning);
     enable("do-scan", may && axis.hasTable && !axis.isRunning);
     enable("do-reset-error", may);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
-    setText(byId("seat"), axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
+    setText(byId("seat"), this.wire.state !== "open" ? "Who operates is not known" : axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
   }
 }

@@ -68,6 +68,7 @@ export class Facts {
   private readonly cells = new Map<string, { element: HTMLElement; value: HTMLElement; bar: HTMLElement | null }>();
   private timerFrom = 0;
   private counterFrom = 0;
+  private forcesFrom = 0;
 
   constructor(root: HTMLElement) {
     for (const [id, label, bar] of [["timer", "Timer", 1], ["counter", "Counter", 1], ["inpos", "IN_POS", 0], ["error", "ERROR", 0],
@@ -103,6 +104,7 @@ export class Facts {
     this.set("link", links[link] ?? "unknown", link === 3 ? "good" : "bad");
     const left = axis.r.FORCE_LEFT ?? 0;
     const forced = axis.forcedInputs || axis.forcedOutputs;
-    this.set("forces", forced ? `end in ${duration(left)}` : "none", forced ? "warn" : "", left / 5000);
+    this.forcesFrom = forced ? Math.max(left, this.forcesFrom) : 0;
+    this.set("forces", forced ? `end in ${duration(left)}` : "none", forced ? "warn" : "", this.forcesFrom ? left / this.forcesFrom : 0);
   }
 }

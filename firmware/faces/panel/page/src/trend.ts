@@ -1,16 +1,22 @@
 // Position, velocity and current of the last minutes: pause, zoom, CSV.
 import uPlot from "uplot";
-import { h, saveFile, setText } from "./dom";
+import { h, saveFile, setClass, setText } from "./dom";
 import type { Axis } from "./state";
+import { duration } from "./words";
 
 const kKept = 6000; // samples: ten minutes at ten a second
 const kWindows = [10, 60, 300];
+const kOld = 1000; // ms: a value that was read before is shown with its age
+const kPause = 2; // seconds without a sample are a gap in the lines
+const kLinkUp = 3;
+
+type Samples = (number | null | undefined)[];
 
 interface Series {
   time: number[]; // seconds of the gateway's uptime
-  position: (number | null)[];
-  speed: (number | null)[];
-  torque: (number | null)[];
+  position: Samples; // null: a gap; undefined: nothing new, the line goes on
+  speed: Samples;
+  torque: Samples;
   step: number[];
   readonly taken: Map<string, number>; // when the last value came, by register
 }
@@ -25,6 +31,7 @@ export class Trend {
   private zoomed = false;
   private window = kWindows[1];
   private drawn = 0;
+  private readonly watch = new ResizeObserver(() => this.plot?.setSize(this.size()));
   private readonly pauseButton: HTMLButtonElement;
 
   constructor(private readonly root: HTMLElement, tools: HTMLElement, private readonly table: HTMLElement) {
@@ -34,7 +41,7 @@ export class Trend {
     tools.append(choice, this.pauseButton,
       h("button", { type: "button", onclick: () => this.unzoom() }, "Whole"),
       h("button", { type: "button", onclick: () => this.export() }, "CSV"));
-    new ResizeObserver(() => this.plot?.setSize(this.size())).observe(root);
+    this.watch.observe(root);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.make());
   }
 
@@ -72,20 +79,23 @@ export class Trend {
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string): string => style.getPropertyValue(name).trim();
     const unit = axis.position(0).unit;
-    const line = (label: string, scale: string, name: string): uPlot.Series => ({ label, scale, stroke: colour(name), width: 1.5, points: { show: false }, spanGaps: true });
+    const em = parseFloat(style.fontSize);
+    const font = `${Math.round(0.73 * em)}px system-ui`;
+    const line = (label: string, scale: string, name: string): uPlot.Series => ({ label, scale, stroke: colour(name), width: 1.5, points: { show: false } });
     const side = (scale: string, label: string, right: boolean): uPlot.Axis => ({
       scale, label, side: right ? 1 : 3, stroke: colour("--quiet"), grid: { show: !right, stroke: colour("--line"), width: 1 }, ticks: { show: false },
-      size: 52, labelSize: 16, font: "11px system-ui", labelFont: "11px system-ui",
+      size: 3.5 * em, labelSize: 1.1 * em, font, labelFont: font,
     });
     this.plot = new uPlot({
       ...this.size(), cursor: { drag: { x: true, y: false } }, legend: { live: true },
       scales: { x: { time: false } },
-      axes: [{ stroke: colour("--quiet"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui",
+      axes: [{ stroke: colour("--quiet"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font,
         values: (_, ticks) => ticks.map((t) => `${Number(t.toFixed(2))} s`) }, side("position", `position, ${unit}`, false), side("speed", "velocity, rpm", true)],
       series: [{ label: "time", value: (_, v) => (v === null ? "" : `${v.toFixed(2)} s`) }, line(`position (${unit})`, "position", "--trend-1"), line("velocity (rpm)", "speed", "--trend-2"),
         { ...line("current (% of peak)", "torque", "--trend-3") }],
       hooks: { setSelect: [(u) => { if (u.select.width > 0) this.zoomed = true; }] },
     }, [[], [], [], []], this.root);
+    this.watch.observe(this.root.querySelector(".u-legend")!); // its lines wrap
     this.draw(true);
   }
 
@@ -97,32 +107,48 @@ export class Trend {
       if (last - seconds < 1) return;
       this.data.set(axis.info.name, (series = empty())); // the gateway has started anew
     }
+    if (last !== undefined && seconds - last > kPause) this.put(series, (last + seconds) / 2, axis.step, null, null, null);
     // The motor is asked for one value after the other: only what has come since the sample before is one.
-    const value = (name: string): number | null => {
+    const value = (name: string): number | null | undefined => {
       const found = axis.m.get(name);
-      if (!found || !found.good || found.at === series.taken.get(name)) return null;
+      if (!found || (axis.r.LINK ?? 0) !== kLinkUp) return null;
+      if (!found.good || found.at === series.taken.get(name)) return undefined;
       series.taken.set(name, found.at);
       return found.raw;
     };
     const [p, v, t] = [value("P_IST"), value("V_IST"), value("VF_OUT")];
-    series.time.push(seconds);
-    series.position.push(p === null ? null : axis.position(p).value);
-    series.speed.push(v === null ? null : axis.speed(v));
-    series.torque.push(t === null ? null : (t / 1023) * 100);
-    series.step.push(axis.step);
+    const turn = (raw: number | null | undefined, into: (raw: number) => number): number | null | undefined => (typeof raw === "number" ? into(raw) : raw);
+    this.put(series, seconds, axis.step, turn(p, (raw) => axis.position(raw).value), turn(v, (raw) => axis.speed(raw)), turn(t, (raw) => (raw / 1023) * 100));
+  }
+
+  private put(series: Series, time: number, step: number, position: Samples[0], speed: Samples[0], torque: Samples[0]): void {
+    series.time.push(time);
+    series.step.push(step);
+    series.position.push(position);
+    series.speed.push(speed);
+    series.torque.push(torque);
     if (series.time.length > kKept) for (const list of [series.time, series.position, series.speed, series.torque, series.step]) list.shift();
   }
 
   draw(force = false): void {
+    this.tell();
     if (!this.plot || !this.axis || (!force && (this.paused || document.hidden || performance.now() - this.drawn < 90))) return;
     this.drawn = performance.now();
     const series = this.data.get(this.axis.info.name) ?? empty();
     this.plot.setData([series.time, series.position, series.speed, series.torque], false);
     const last = series.time[series.time.length - 1] ?? 0;
     if (!this.zoomed) this.plot.setScale("x", { min: Math.max(series.time[0] ?? 0, last - this.window), max: last || 1 });
-    const [p, v] = [this.axis.m.get("P_IST"), this.axis.m.get("V_IST")];
-    const position = p?.good ? this.axis.position(p.raw) : null;
-    setText(this.table, position === null ? "no values of the motor" : `${position.value.toFixed(3)} ${position.unit}, ${v?.good ? this.axis.speed(v.raw).toFixed(1) : "?"} rpm`);
+  }
+
+  /** Where it is, also while the trend is paused. */
+  private tell(): void {
+    const axis = this.axis;
+    const [p, v] = [axis?.m.get("P_IST"), axis?.m.get("V_IST")];
+    if (!axis || !p) return setText(this.table, "no values of the motor");
+    const { value, unit } = axis.position(p.raw);
+    const age = performance.now() - Math.min(p.at, v?.at ?? p.at);
+    setText(this.table, `${value.toFixed(3)} ${unit}, ${v ? axis.speed(v.raw).toFixed(1) : "?"} rpm${age > kOld ? `, ${duration(age)} old` : ""}`);
+    setClass(this.table, "stale", age > kOld);
   }
 
   private export(): void {

@@ -17,35 +17,61 @@ export type LinkState = "connecting" | "open" | "lost" | "replaced";
 const kFirstDelay = 500;
 const kLongestDelay = 10_000;
 const kPlaceTaken = 4001;
+const kTick = 1000;
+// Ticks without a message. The program sends one every 400 ms, and answers a ping before a login too.
+const kPingAfter = 2;
+const kDropAfter = 5;
 
 export class Wire {
   state: LinkState = "connecting";
-  lastHeard = 0; // performance.now() of the last message
   private socket: WebSocket | null = null;
   private delay = kFirstDelay;
   private timer = 0;
+  private quiet = 0; // ticks since the last message; a suspended tab counts none
   private nextId = 1;
   private readonly waiting = new Map<number, { resolve: (answer: Answer) => void; progress?: (m: Message) => void }>();
 
-  constructor(private readonly onMessage: (message: Message) => void, private readonly onState: (state: LinkState) => void) {}
+  constructor(private readonly onMessage: (message: Message) => void, private readonly onState: (state: LinkState) => void) {
+    setInterval(() => this.listen(), kTick);
+  }
 
   connect(): void {
     clearTimeout(this.timer);
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/live`);
     this.socket = socket;
+    this.quiet = 0;
     socket.onopen = () => {
       this.delay = kFirstDelay;
       this.set("open");
     };
-    socket.onmessage = (event) => this.take(String(event.data));
+    socket.onmessage = (event) => { if (this.socket === socket) this.take(String(event.data)); };
     socket.onclose = (event) => {
       if (this.socket !== socket) return;
-      this.fail();
-      if (event.code === kPlaceTaken) return this.set("replaced");
-      this.set("lost");
-      this.connectLater();
+      if (event.code === kPlaceTaken) {
+        this.fail();
+        return this.set("replaced");
+      }
+      this.lose();
     };
+  }
+
+  private lose(): void {
+    this.socket = null;
+    this.fail();
+    this.set("lost");
+    this.connectLater();
+  }
+
+  /** A line that was pulled closes nothing: silence tells. */
+  private listen(): void {
+    const socket = this.socket;
+    if (!socket || this.state === "replaced") return;
+    ++this.quiet;
+    if (this.quiet === kPingAfter && this.state === "open") void this.ask({ do: "ping" });
+    if (this.quiet < kDropAfter) return;
+    this.lose();
+    socket.close();
   }
 
   /** Half to all of a delay that doubles: pages of one machine do not come all at once. */
@@ -74,7 +100,7 @@ export class Wire {
   }
 
   private take(text: string): void {
-    this.lastHeard = performance.now();
+    this.quiet = 0;
     const message = JSON.parse(text) as Message;
     if (message.t === "answer" || message.t === "progress") {
       const entry = this.waiting.get(message.id as number);

@@ -56,6 +56,9 @@ export function clock(milliseconds: number): string {
   return `${two(Math.floor(seconds / 3600))}:${two(Math.floor(seconds / 60) % 60)}:${two(seconds % 60)}.${String(milliseconds % 1000).padStart(3, "0")}`;
 }
 
+/** When UPTIME was `then`, if it is `now`, by this machine's clock. */
+export const wallTime = (now: number, then: number): Date => new Date(Date.now() - ((now - then) >>> 0));
+
 /** `0.35 s`, `120 ms` */
 export function duration(milliseconds: number): string {
   if (milliseconds < 1000) return `${Math.round(milliseconds)} ms`;
