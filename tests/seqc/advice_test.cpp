@@ -35,7 +35,7 @@ std::string runner(const std::string& guard, const std::string& steps, const std
 TEST(Advice, AGuardIsToStopTheMotor) {
     const std::string guard = "ON NOT Well NEXT := Fault;\n";
     EXPECT_EQ(told(runner(guard, "", "")), "W042");
-    EXPECT_EQ(told(runner("", "", "")), "") << "an ERROR stops it by itself";
+    EXPECT_EQ(told(runner("ON NOT Well IN Idle NEXT := Fault;\n", "", "")), "") << "an ERROR stops by itself";
     EXPECT_EQ(told(runner(guard, "", "ALLOW W042 BECAUSE 'the relay cuts the supply'; ")), "");
     for (const char* order : {"STOP", "INIT(Fast)", "MODE_REG := 0", "V_SOLL := 0"})
         EXPECT_EQ(told(runner(guard, "", std::string("ENTRY ") + order + "; ")), "") << order;

@@ -114,6 +114,18 @@ class Scenario(Case):
         self.assertIn("motor stop below -500 mm\nmotor load 40\nmotor T_HOME := 30\n", scenario)
         self.assertNotIn("pulse Go", scenario)
 
+    def test_a_time_limit_that_the_move_does_not_keep(self):
+        self.write("short.seq", "PROGRAM Short\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; END_VAR\nVAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n"
+                   "VAR_MOTOR Far AT P1 := 60 rev; Fast AT V1 := 1000 rpm; END_VAR\nPOWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+                   "STEP Idle: OWN ERROR; IF R_TRIG(Go) THEN NEXT := Away; END_IF END_STEP\n"
+                   "STEP Away: OWN ERROR; ENTRY POSITION(Far); IF INPOS WITHIN T#20ms THEN NEXT := There; ELSE NEXT := Idle; END_IF END_STEP\n"
+                   "STEP There: OWN ERROR; OUT Lamp; IF NOT Go THEN NEXT := Idle; END_IF END_STEP\n"
+                   "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n")
+        printed = self.verify("short.seq", "--scenario", "out.scn")
+        self.assertRegex(printed, r"in step Away the course goes to There with INPOS, and the move takes more than the 20 ms of the timer: "
+                         r"it goes to Idle")
+        self.assertNotIn("--plant", printed + self.read("out.scn"))
+
     def test_a_helper_step_on_the_way(self):
         self.plays("camera.seq", ("Door_Stops_It", "out.scn"))
 
