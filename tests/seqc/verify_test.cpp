@@ -10,14 +10,14 @@ namespace {
 
 using sequencer::Term;
 
-constexpr std::uint8_t kStep = 1;
-const std::vector<std::uint8_t> kOutputs = {0, 1, 2};  // of POWER_UP, the step itself and step 2
+constexpr std::uint8_t kVerifiedStep = 1;
+const std::vector<std::uint8_t> kVerifiedOutputs = {0, 1, 2};  // of POWER_UP, the step itself and step 2
 
 /// "IF IN0 THEN STOP; TIMER := T#5ms; NEXT := 2" in a step whose output is OUT0.
 StepPlan plan() {
     StepPlan step;
     step.name = "S";
-    step.number = kStep;
+    step.number = kVerifiedStep;
     step.outputs = 1;
     Rule rule;
     rule.when = truth_of_bit(kInput0) & ~truth_of_bit(kErrorBit);
@@ -30,7 +30,7 @@ StepPlan plan() {
 
 Term right_term() {
     Term term;
-    term.condition = {.step = kStep, .input = 1, .care = 1};
+    term.condition = {.step = kVerifiedStep, .input = 1, .care = 1};
     term.fast.next_step = 2;
     term.fast.outputs = 2;
     term.fast.sends = true;
@@ -42,7 +42,7 @@ Term right_term() {
 std::optional<std::size_t> difference(const std::vector<Term>& terms) {
     std::vector<LoweredTerm> lowered;
     for (const Term& term : terms) lowered.push_back({sequencer::encode(term), {}});
-    return first_difference(plan(), kOutputs, lowered);
+    return first_difference(plan(), kVerifiedOutputs, lowered);
 }
 
 TEST(Verify, RightTermsPass) {
@@ -57,7 +57,7 @@ TEST(Verify, RightTermsPass) {
 
 TEST(Verify, EveryWrongFieldIsFound) {
     const std::vector<std::function<void(Term&)>> faults = {
-        [](Term& t) { t.fast.next_step = kStep; },
+        [](Term& t) { t.fast.next_step = kVerifiedStep; },
         [](Term& t) { t.fast.next_step = sequencer::kNoSwitch; },
         [](Term& t) { t.fast.outputs = 1; },
         [](Term& t) { t.fast.sends = false; },
@@ -95,7 +95,7 @@ TEST(Verify, MissingAndSuperfluousTermsAreFound) {
 
 TEST(Verify, ADifferenceIsAnErrorOfTheCompiler) {
     Report report;
-    check_terms(plan(), kOutputs, {}, report);
+    check_terms(plan(), kVerifiedOutputs, {}, report);
     ASSERT_TRUE(report.has_errors());
     EXPECT_EQ(report.take().front().code, "E099");
 }
