@@ -55,7 +55,7 @@ void MidiMotor::poll(base::Instant now) {
 }
 
 base::Instant MidiMotor::next_poll(base::Instant now) const {
-    if (link_.busy() && !(kWholeMidiStop && stop_wanted_ && session_.is_blind())) return link_.next_poll(now);
+    if (link_.busy() && !(stop_wanted_ && session_.is_blind())) return link_.next_poll(now);
     base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(now), now));
     if (!session_.is_up()) return next;
     if ((refusals_ != 0 || stop_wanted_) && retry_at_ > now) next = std::min(next, retry_at_);

@@ -32,10 +32,8 @@ MidiNext MidiSession::start_up(bool stop_wanted, base::Instant now) {
             if (now < next_query_) return MidiNext::nothing;
             next_query_ = now + kProbe;
             if (!stop_wanted || !blind_) return midi_query(midi::GET_STATUS);
-            if (kWholeMidiStop) {
-                next_query_ = now + stop_pause();
-                ignore_ = false;
-            }
+            next_query_ = now + stop_pause();
+            ignore_ = false;
             return midi_command(midi::EMERGENCY_STOP);
         case Phase::resetting:
             if (now < deaf_until_) return MidiNext::nothing;

@@ -49,8 +49,7 @@ void MidiV24Link::begin(const MidiMessage& message, base::Instant now) {
                                .index = static_cast<std::uint8_t>(index),
                                .sub_index = message.sub_index,
                                .data = message.data};
-    is_urgent_ =
-        kWholeMidiStop && message.number == registers::midi::EMERGENCY_STOP;  // no query has its number
+    is_urgent_ = message.number == registers::midi::EMERGENCY_STOP;  // no query has its number
     bytes_ = v24::encode(request);
     decoder_.expect(request);
     deadline_ = now + kLongestAnswer;

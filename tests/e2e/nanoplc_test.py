@@ -101,7 +101,9 @@ class Running(ServiceCase):
         self.plug_in()
         config = self.write(self.axis(table=self.table), are_new=True)
         service = self.start(config, LD_PRELOAD=SLOW_DISK, SLOW_DISK_MS="1500", ASAN_OPTIONS="verify_asan_link_order=0")
-        self.ctl("run", exit_code=1)
+        run = subprocess.run([service_case.NANOCTL, "--port", "unix:" + self.path("x"), "--patience", "3000", "run"], capture_output=True,
+                             text=True, check=False)
+        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
         self.until(lambda: "takes longer than 1 s to be written; it has not started" in service.said(), service)
         status = self.ctl("status")
         self.assertEqual((status["state"], status["safe_reason"], status["scans"]), ("stopped", "bad run mark", 0))

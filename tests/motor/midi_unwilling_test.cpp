@@ -1,5 +1,5 @@
 // A MIDI drive that refuses its stop, or does not answer it: its shaft may be moving until it was read at
-// rest. Built once more as a microcontroller's image has it (NPLC_WHOLE_MIDI_STOP=0).
+// rest.
 
 #include <algorithm>
 #include <string>

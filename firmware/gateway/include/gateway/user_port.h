@@ -10,10 +10,6 @@
 #include "protocol/mactalk.h"
 #include "registers/mac.h"
 
-#ifndef NPLC_MODE_STOPS  // 0 in an image that has no room for it
-#define NPLC_MODE_STOPS 1
-#endif
-
 namespace nplc::gateway {
 
 /// The user port: MacTalk (001 §5.1) for the gateway's own address (REGISTERS.md), and for the motor's

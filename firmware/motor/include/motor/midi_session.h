@@ -24,7 +24,7 @@ class MidiSession {
     /// Nothing is heard: a stop that is wanted is sent all the same, in place of queries.
     bool is_blind() const { return blind_ && is_down(); }
     /// That stop is due, whatever message is under way.
-    bool is_stop_due(base::Instant now) const { return kWholeMidiStop && is_blind() && now >= next_query_; }
+    bool is_stop_due(base::Instant now) const { return is_blind() && now >= next_query_; }
     /// While it is not up: what is to be sent.
     MidiNext start_up(bool stop_wanted, base::Instant now);
     void begin_stop() { stop_pace_.begin_anew(); }

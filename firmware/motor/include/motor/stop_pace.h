@@ -4,14 +4,7 @@
 
 #include "base/time.h"
 
-/// A microcontroller's image has no room for the whole rule of a MIDI drive's stop (MIDI.md, "Stop").
-#ifndef NPLC_WHOLE_MIDI_STOP
-#define NPLC_WHOLE_MIDI_STOP 1
-#endif
-
 namespace nplc::motor {
-
-inline constexpr bool kWholeMidiStop = NPLC_WHOLE_MIDI_STOP != 0;
 
 /// How often a stop that is not confirmed is repeated: every 50 ms for 1 s, then every 500 ms.
 class StopPace {
