@@ -97,18 +97,6 @@ class Running(ServiceCase):
         self.start(self.write(self.axis()))
         self.assertEqual(self.ctl("status")["table_crc32"], crc)
 
-    def test_a_first_run_that_a_slow_disk_cannot_note_does_not_start(self):
-        self.plug_in()
-        config = self.write(self.axis(table=self.table), are_new=True)
-        service = self.start(config, LD_PRELOAD=SLOW_DISK, SLOW_DISK_MS="1500", ASAN_OPTIONS="verify_asan_link_order=0")
-        run = subprocess.run([service_case.NANOCTL, "--port", "unix:" + self.path("x"), "--patience", "3000", "run"], capture_output=True,
-                             text=True, check=False)
-        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
-        self.until(lambda: "takes longer than 1 s to be written; it has not started" in service.said(), service)
-        status = self.ctl("status")
-        self.assertEqual((status["state"], status["safe_reason"], status["scans"]), ("stopped", "bad run mark", 0))
-        self.end(service)
-
     def test_a_reset_over_the_port(self):
         self.plug_in()
         self.start(self.write(self.axis()))
