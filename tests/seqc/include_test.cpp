@@ -48,7 +48,8 @@ TEST_F(Include, PropertiesOfBothFilesAreProved) {
     write("p.seq", including("INCLUDE 'all.seqi';\nPROPERTY Dark: NEVER Lamp AND STEP = Idle;"));
     EXPECT_EQ(run("verify p.seq"), 0) << read("err");
     EXPECT_NE(read("out").find("proved    Lit: Lamp ONLY AFTER Start"), std::string::npos) << read("out");
-    EXPECT_NE(read("out").find("proved    Dark: NEVER Lamp AND STEP = Idle"), std::string::npos) << read("out");
+    EXPECT_NE(read("out").find("proved    Dark: NEVER Lamp AND STEP = Idle"), std::string::npos)
+        << read("out");
 }
 
 TEST_F(Include, CountsOnceByWhateverNameAndWay) {
