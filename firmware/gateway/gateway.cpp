@@ -304,9 +304,8 @@ void Gateway::note_motor_fault() {
 void Gateway::note_late_line() {
     const base::Microseconds echo = motor_.echo_time();
     const bool late = echo > motor::kLongestEcho;
-    if (late == line_is_late_) return;
-    line_is_late_ = late;
-    if (late) note(Event::line_late, static_cast<std::uint16_t>(echo.count() / 1'000));
+    if (late && !line_is_late_) note(Event::line_late, static_cast<std::uint16_t>(echo.count() / 1'000));
+    if (late || motor_.link() == motor::Link::up) line_is_late_ = late;
 }
 
 void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {

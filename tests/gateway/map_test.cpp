@@ -49,7 +49,7 @@ TEST(GatewayMap, TheDocumentHasEachReasonAndCommand) {
         EXPECT_NE(word, "unknown") << code;
         EXPECT_NE(text.find(" " + std::to_string(code) + " "), std::string::npos) << code;
     }
-    EXPECT_EQ(name_of_log_code(39), "unknown");
+    EXPECT_EQ(name_of_log_code(40), "unknown");
     EXPECT_EQ(name_of_log_code(32), "the drive's fault");
     for (int code = 0; code < 256; ++code) {
         const std::string_view word = name_of(static_cast<Command>(code));

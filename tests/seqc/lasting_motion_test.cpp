@@ -86,12 +86,14 @@ std::string at_place(const std::string& does, const std::string& halted = "INIT(
 }
 
 TEST(LastingMotion, AnotherTargetIsAMove) {
-    for (const char* does :
-         {"CLEAR_P_FNC;", "CLEAR_P_SOLL;", "CLEAR_P_IST; CLEAR_P_FNC;", "CLEAR_P_IST; CLEAR_P_SOLL;"})
+    for (const char* does : {"CLEAR_P_FNC;", "CLEAR_P_SOLL;", "CLEAR_P_IST; CLEAR_P_FNC;"})
         EXPECT_EQ(told_codes(at_place(does)), "W051") << does;
-    for (const char* does : {"INIT(Fast); CLEAR_P_IST; CLEAR_P_FNC;",
-                             "CLEAR_P_SOLL; CLEAR_P_IST; CLEAR_P_FNC;", "CLEAR_P_IST;", "INIT(Fast);"})
+    for (const char* does :
+         {"INIT(Fast); CLEAR_P_IST; CLEAR_P_FNC;", "CLEAR_P_SOLL; CLEAR_P_IST; CLEAR_P_FNC;", "INIT(Fast);"})
         EXPECT_EQ(told_codes(at_place(does)), "") << does;
+    // P_FNC still counts from the old 0.
+    EXPECT_EQ(told_codes(at_place("CLEAR_P_IST; CLEAR_P_SOLL;")), "W046 W051");
+    EXPECT_EQ(told_codes(at_place("CLEAR_P_IST;")), "W046");
 }
 
 TEST(LastingMotion, ASpeedTakesUpAStoppedMove) {
