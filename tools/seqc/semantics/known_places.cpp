@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -134,7 +135,14 @@ class PlaceWalk {
                 if (later.span == send.span) apply_velocity(after, later);
             }
             if (waits_with_limit(rule)) judge_limit(rule, before, *to, after.velocity);
-            if (!before.relative && before.going.empty()) judge_standing(before, *to);
+            judge_standing(before, *to);
+        }
+    }
+
+    /// Once all rules were judged: an ENTRY is sent on every way into its step.
+    void report_standing() {
+        for (const auto& [offset, way] : standing_) {
+            if (!moves_.contains(offset)) warn_standing(way.first, way.second);
         }
     }
 
@@ -227,13 +235,17 @@ class PlaceWalk {
     }
 
     void judge_standing(const PlaceState& before, const Place& to) {
-        if (!to.counts.is_one() || before.anywhere || before.standing.empty() ||
-            said_.contains(to.span.offset) ||
-            std::any_of(before.standing.begin(), before.standing.end(),
-                        [&](const Place& place) { return !(place == to); }))
-            return;
-        said_.insert(to.span.offset);
-        const Place& from = before.standing.front();
+        const bool stands = to.counts.is_one() && !before.relative && before.going.empty() &&
+                            !before.anywhere && !before.standing.empty() &&
+                            std::all_of(before.standing.begin(), before.standing.end(),
+                                        [&](const Place& place) { return place == to; });
+        if (stands)
+            standing_.try_emplace(to.span.offset, before.standing.front(), to);
+        else
+            moves_.insert(to.span.offset);
+    }
+
+    void warn_standing(const Place& from, const Place& to) {
         const bool is_other = from.reg.index != to.reg.index;
         Diagnostic& d = report_.add(
             "W040", to.span,
@@ -342,7 +354,8 @@ class PlaceWalk {
     std::string_view source_;
     Report& report_;
     std::vector<Value> values_;
-    std::set<std::uint32_t> said_;
+    std::map<std::uint32_t, std::pair<Place, Place>> standing_;  ///< by the order's offset: from and to
+    std::set<std::uint32_t> moves_;                              ///< orders that move the axis on some way
     std::set<std::uint32_t> said_limits_;
 };
 
@@ -358,6 +371,7 @@ void check_known_places(const Plan& plan, const Symbols& symbols, const std::vec
     at_power_up.idle = true;
     at_power_up.velocity = {0};
     walk_steps(plan, at_power_up, walk);
+    walk.report_standing();
 }
 
 }  // namespace nplc::seqc

@@ -223,7 +223,39 @@ class MotorWalk {
             note_init(said, state);
         } else if (select.mode == Mode::position && group == Group::p && state.stopped) {
             warn_stopped(send, rule, state);
+        } else if (select.mode != Mode::init && !is_value_of(select) &&
+                   selected_beside(send, rule, value_group(select)).ends_with("..")) {
+            judge_change_of_mode(select, send, rule, state);
         }
+    }
+
+    static Group value_group(const SelectCommand& select) {
+        return select.mode == Mode::position ? Group::p : Group::v;
+    }
+    static bool is_value_of(const SelectCommand& select) {
+        return select.selection.group == value_group(select);
+    }
+
+    /// POSITION(V1) while the motor turns in velocity mode.
+    void judge_change_of_mode(const SelectCommand& select, const Send& send, const Rule& rule,
+                              const MotorState& state) {
+        const bool to_position = select.mode == Mode::position;
+        const std::uint8_t others = state.modes & (to_position ? kVelocity | kOther : kPosition | kOther);
+        if (others == 0) return;
+        const std::string value = name_of(select.selection);
+        complain("E052", send, rule,
+                 fmt::format("{} may start the motor {}: it may be in {} mode here", named(send, rule),
+                             to_position ? "towards an old P_SOLL" : "at an old V_SOLL",
+                             others == kVelocity   ? "velocity"
+                             : others == kPosition ? "position"
+                                                   : "another"),
+                 to_position
+                     ? fmt::format("name the position too: POSITION(P.., {}){}", value,
+                                   select.selection.group == Group::v
+                                       ? fmt::format("; the velocity alone is VELOCITY({})", value)
+                                       : "")
+                     : fmt::format("name the velocity too: VELOCITY(V.., {}); or write {}_SOLL := ..;", value,
+                                   letter_of(select.selection.group)));
     }
 
     /// INIT brakes: it is correct if the motor is at standstill anyway.
