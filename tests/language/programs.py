@@ -116,10 +116,10 @@ class Writer:
         if self.remembers and self.chance(0.5):
             second = "IF F_TRIG(Seen) THEN RETURN; ELSIF IN3 THEN NEXT := First; END_IF"
         if self.nested:
-            second += " END_STEP STEP Third: OWN ERROR; IF IN4 THEN CALL Inner(Seen, Away); NEXT := First; ELSIF IN3 THEN RETURN; END_IF"
-            second = second.replace("RETURN", "CALL Inner(IN3, Away); NEXT := Third", 1)
+            second += " END_STEP STEP Final: OWN ERROR; IF IN4 THEN CALL Inner(Seen, Away); NEXT := First; ELSIF IN3 THEN RETURN; END_IF"
+            second = second.replace("RETURN", "CALL Inner(IN3, Away); NEXT := Final", 1)
             inner = ("SEQUENCE Inner(VAR_INPUT Told, STEP Aside)\n"
-                     "STEP Only: OWN ERROR; IF Told THEN RETURN; ELSIF IN4 THEN NEXT := Aside; END_IF END_STEP END_SEQUENCE\n")
+                     "STEP Await: OWN ERROR; IF Told THEN RETURN; ELSIF IN4 THEN NEXT := Aside; END_IF END_STEP END_SEQUENCE\n")
         first = "IF Seen THEN TIMER := Wait; NEXT := Second; END_IF"
         if self.remembers and self.chance(0.5):
             first = f"IF Seen WITHIN Wait THEN {sends}NEXT := Second; ELSE NEXT := Away; END_IF"
