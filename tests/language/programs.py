@@ -242,7 +242,8 @@ class Writer:
         text += f"ON ERROR NEXT := {self.names[-1]};\n" if self.has_on_error else ""
         text += self.sequence_text() if self.sequence else ""
         text += "".join(self.on_condition() for _ in range(self.rng.choice([0, 0, 1, 2])))
-        text += self.group_out() if not self.latched and self.chance(0.3) else ""
+        grouped = self.group_out() if not self.latched and self.chance(0.3) else ""
+        text += grouped if not any(terms.values()) else ""  # a TERM does not name what it switches on
         if not self.at_zero and self.chance(0.6):
             first = f"NEXT := {self.rng.choice(self.names)};"
             if self.called_first:
