@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 
 #include "base/csv_row.h"
 #include "input_file.h"
@@ -74,10 +75,56 @@ class Line {
     std::size_t number_;
 };
 
+/// Up to and including the end of the line.
+std::string_view take_line(std::string_view& text) {
+    const auto length = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, length);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    text.remove_prefix(std::min(length + 1, text.size()));
+    return line;
+}
+
+/// A number at the front of `text`, which is taken off; nothing without one.
+template <typename Number>
+bool take_number(std::string_view& text, Number& number) {
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{}) return false;
+    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    return true;
+}
+
+bool take(std::string_view& text, std::string_view word) {
+    if (!text.starts_with(word)) return false;
+    text.remove_prefix(word.size());
+    return true;
+}
+
+std::optional<StimulusPreset> preset_in(std::string_view line) {
+    StimulusPreset preset;
+    if (!take(line, "# preset ") || !take_number(line, preset.value) || !take(line, " in term ")) return {};
+    do {
+        if (!take_number(line, preset.terms.emplace_back())) return {};
+    } while (take(line, ", "));
+    if (!line.empty() && line.front() != ':') return {};
+    return preset;
+}
+
 std::string_view without_blank_end(std::string_view text) {
     const auto last = text.find_last_not_of(" \t\r\n");
     if (last == std::string_view::npos) return {};
     return text.substr(0, std::min(text.find('\n', last), text.size()));
+}
+
+void set_preset(std::vector<std::uint8_t>& table, const StimulusPreset& preset, const std::string& file) {
+    for (const std::size_t term : preset.terms) {
+        const std::size_t at = term * sequencer::kTermBytes;
+        const bool is_there = term < sequencer::kMaxTerms && at + sequencer::kTermBytes <= table.size();
+        if (!is_there || sequencer::is_flex(sequencer::TermView(&table[at], sequencer::kTermBytes)))
+            throw InputError(
+                fmt::format("{}: the table has no preset in term {}; it is for another table", file, term));
+        table[at + 6] = static_cast<std::uint8_t>(preset.value);
+        table[at + 7] = static_cast<std::uint8_t>(preset.value >> 8U);
+    }
 }
 
 void append_word(std::string& words, const std::string& word) {
@@ -87,24 +134,38 @@ void append_word(std::string& words, const std::string& word) {
 
 }  // namespace
 
+std::vector<StimulusPreset> parse_presets(std::string_view text, const std::string& file) {
+    std::vector<StimulusPreset> presets;
+    for (std::size_t number = 1; text.starts_with('#'); ++number) {
+        const std::string_view line = take_line(text);
+        auto preset = preset_in(line);
+        if (!preset) Line(line, file, number).fail("write # preset 10000 in term 5, 9, or the header");
+        presets.push_back(std::move(*preset));
+    }
+    return presets;
+}
+
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file) {
     text = without_blank_end(text);
     std::vector<StimulusRow> rows;
     std::size_t number = 0;
+    std::size_t header = 1;
     do {
-        const auto length = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, length);
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        text.remove_prefix(std::min(length + 1, text.size()));
+        const std::string_view line = take_line(text);
         ++number;
-        if (number > 1 && base::is_blank_row(line)) continue;
-        if (number > 1) {
+        if (number == header && preset_in(line)) {
+            ++header;
+            continue;
+        }
+        if (number > header && base::is_blank_row(line)) continue;
+        if (number > header) {
             rows.push_back(Line(line, file, number).row());
         } else if (line != kHeader) {
             Line(line, file, number)
                 .fail(fmt::format("the header is \"{}\"; write {}", shown(line), kHeader));
         }
     } while (!text.empty());
+    if (number < header) Line({}, file, header).fail(fmt::format("the header is missing; write {}", kHeader));
     return rows;
 }
 
@@ -132,10 +193,11 @@ std::string scan_csv(std::span<const std::uint8_t> bytes, const std::vector<Stim
 }
 
 void run_scan(const std::string& table_file, const std::string& stimulus_file) {
-    const auto table = read_table(table_file);
+    auto table = read_table(table_file);
     const std::string stimulus =
         read_long_input(stimulus_file, "a CSV file with a stimulus, or - for standard input");
     const std::string name = stimulus_file == "-" ? "standard input" : stimulus_file;
+    for (const StimulusPreset& preset : parse_presets(stimulus, name)) set_preset(table, preset, name);
     const std::string csv = scan_csv(table, parse_stimulus(stimulus, name));
     std::fwrite(csv.data(), 1, csv.size(), stdout);
 }

@@ -15,8 +15,19 @@ struct StimulusRow {
     bool operator==(const StimulusRow&) const = default;
 };
 
+/// Another preset of timer or counter in some terms of the table: the value of a set-point.
+struct StimulusPreset {
+    std::uint16_t value = 0;
+    std::vector<std::size_t> terms;  ///< by number, from 0
+    bool operator==(const StimulusPreset&) const = default;
+};
+
+/// The lines `# preset 10000 in term 5, 9: Soak := 10000 ms` before the header, each for a set-point; what
+/// stands behind the colon is for readers. Throws InputError with file and line.
+std::vector<StimulusPreset> parse_presets(std::string_view text, const std::string& file);
+
 /// CSV with the header `dt_ms,inputs,inpos,error` and plain decimal numbers; CR LF and blank lines at the end
-/// are accepted. Throws InputError with file and line.
+/// are accepted, and the lines of parse_presets() are skipped. Throws InputError with file and line.
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file);
 
 /// `nanoplc-sim scan`: the engine alone, one scan a row. CSV with the header

@@ -89,6 +89,7 @@ Token symbol_at(std::string_view rest, std::size_t begin) {
     if (rest.starts_with("==")) throw LineMistake{"\"==\" is not known here; write = to compare", begin};
     if (rest.front() == '&') throw LineMistake{"\"&\" is not known here; write and", begin};
     if (rest.front() == '|') throw LineMistake{"\"|\" is not known here; write or", begin};
+    if (rest.starts_with("\xC2\xB1")) throw LineMistake{"write +- for plus or minus", begin};
     if (rest.starts_with("!=")) throw LineMistake{"\"!=\" is not known here; write <> for unequal", begin};
     for (const std::string_view symbol : kSymbols) {
         if (!rest.starts_with(symbol)) continue;

@@ -52,7 +52,8 @@ class Duel:
             raise Difference("not in the grammar")
         program = self.document.program(tree, self.map, self.bytes)
         is_possible = program.remembers() or program.is_possible()
-        errors = {d["code"] for d in self.tools.build(self.parted(text)) if d["severity"] == "error"}
+        said = self.tools.build(self.parted(text))
+        errors = {d["code"] for d in said if d["severity"] == "error"}
         if program.remembers() and errors and errors <= OF_COPIES and not program.faults:
             return False
         if program.faults or errors - OF_A_TABLE:
@@ -66,14 +67,18 @@ class Duel:
             raise Difference(f"the compiler refuses with {errors} what a table can do" if errors else "refuses nothing")
         if errors:
             return False
-        self.run(program, course)
+        lost = {d["message"].split("'")[1].upper() for d in said if d["code"] == "W005" and d["message"].startswith("no step leads")}
+        self.run(program, course, lost)
         return True
 
-    def run(self, program, course):
+    def run(self, program, course, lost):
+        """`lost`: steps to which none leads, says the compiler."""
         machine, table, steps, step = machine_for(program), self.tools.table(), self.tools.steps(), 0
         for number, (row, (image, ms)) in enumerate(zip(self.tools.scan(course), course), 1):
             order = sent_in_order(table, step, machine.case(image))
             step = row[0]
+            if steps[step]["name"].upper() in lost:
+                raise Difference(f"scan {number}: in step {steps[step]['name']}, to which none leads, says the compiler")
             if program.remembers():
                 row[0] = step_of_program(steps[step], program)
             before = f"step {machine.step}, image {image:02X}, timer {machine.timer}, counter {machine.counter}"

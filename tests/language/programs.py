@@ -46,6 +46,8 @@ class Writer:
         self.remembers = rng.random() < 0.4       # has SET, edges, FOR, WITHIN, BLINKING; then no TERM
         self.latched = rng.sample(OUTPUTS, rng.choice([0, 1, 1, 2])) if self.remembers else []
         self.sequence = rng.random() < 0.25
+        self.nested = self.sequence and apart.random() < 0.6
+        self.called_first = self.sequence and apart.random() < 0.5
         self.unlatched = [output for output in OUTPUTS if output not in self.latched]
         self.edges = []                           # inputs of which the step at hand may see edges
         self.free_timer = False                   # FOR or WITHIN may use the timer of the step at hand
@@ -109,13 +111,19 @@ class Writer:
     def sequence_text(self):
         """Two steps that use their parameters; the second one leads back."""
         sends = f"{self.rng.choice(SENDS)}; " if self.chance(0.5) else ""
+        inner = ""
         second = "IF NOT Seen AND IN4 THEN NEXT := Away; ELSIF IN4 THEN RETURN; END_IF"
         if self.remembers and self.chance(0.5):
             second = "IF F_TRIG(Seen) THEN RETURN; ELSIF IN3 THEN NEXT := First; END_IF"
+        if self.nested:
+            second += " END_STEP STEP Final: OWN ERROR; IF IN4 THEN CALL Inner(Seen, Away); NEXT := First; ELSIF IN3 THEN RETURN; END_IF"
+            second = second.replace("RETURN", "CALL Inner(IN3, Away); NEXT := Final", 1)
+            inner = ("SEQUENCE Inner(VAR_INPUT Told, STEP Aside)\n"
+                     "STEP Await: OWN ERROR; IF Told THEN RETURN; ELSIF IN4 THEN NEXT := Aside; END_IF END_STEP END_SEQUENCE\n")
         first = "IF Seen THEN TIMER := Wait; NEXT := Second; END_IF"
         if self.remembers and self.chance(0.5):
             first = f"IF Seen WITHIN Wait THEN {sends}NEXT := Second; ELSE NEXT := Away; END_IF"
-        return ("SEQUENCE Part(VAR_OUTPUT Shown, VAR_INPUT Seen, CONST Wait, STEP Away)\n"
+        return (inner + "SEQUENCE Part(VAR_OUTPUT Shown, VAR_INPUT Seen, CONST Wait, STEP Away)\n"
                 f"STEP First: OWN ERROR; OUT Shown; {first} END_STEP STEP Second: OWN ERROR; {second} END_STEP END_SEQUENCE\n")
 
     def choice(self, own, owns_error, within=""):
@@ -234,9 +242,12 @@ class Writer:
         text += f"ON ERROR NEXT := {self.names[-1]};\n" if self.has_on_error else ""
         text += self.sequence_text() if self.sequence else ""
         text += "".join(self.on_condition() for _ in range(self.rng.choice([0, 0, 1, 2])))
-        text += self.group_out() if not self.latched and self.chance(0.3) else ""
+        grouped = self.group_out() if not self.latched and self.chance(0.3) else ""
+        text += grouped if not any(terms.values()) else ""  # a TERM does not name what it switches on
         if not self.at_zero and self.chance(0.6):
             first = f"NEXT := {self.rng.choice(self.names)};"
+            if self.called_first:
+                first = f"CALL Inner(Guard, {self.names[0]}); {first}" if self.nested and self.chance(0.6) else self.call()
             kept = f"OUT {self.rng.choice(OUTPUTS)}; " if not self.latched and self.chance(0.2) else ""
             text += f"POWER_UP {kept}{' '.join(self.statements(False, False))} {first} END_POWER_UP\n"
         return text + "\n".join(step.format(**terms) for step in steps) + "\nEND_PROGRAM\n"

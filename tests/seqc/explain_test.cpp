@@ -58,6 +58,13 @@ TEST_F(Explain, AnUnknownCodeIsOneLineWithTheNearest) {
               std::string::npos);
 }
 
+TEST_F(Explain, ModesAndBitsOfTheRegisters) {
+    ASSERT_EQ(run("explain hiclk"), 0);
+    EXPECT_NE(read("out").find(" of CNTRL_BITS"), std::string::npos);
+    ASSERT_EQ(run("explain --json P_MODE"), 0);
+    EXPECT_NE(read("out").find("MODE_REG"), std::string::npos);
+}
+
 TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {
     for (std::string_view word : reserved_words()) EXPECT_FALSE(passages_about(word).empty()) << word;
     for (std::string_view word : command_names()) EXPECT_FALSE(passages_about(word).empty()) << word;

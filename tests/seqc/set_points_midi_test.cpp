@@ -106,6 +106,40 @@ TEST(MidiSetPoints, EveryPairOfACleanProgramIsWithinTheDrivesReach) {
     try_programs("MAC34", midi::Model::mac34_1, 4000);
 }
 
+/// With the default and both ends of each range.
+bool any_constant_is_refused(const Range& rpm, const Range& rpm_per_s, const char* motor) {
+    for (const int v : {rpm.low, rpm.value, rpm.high}) {
+        for (const int a : {rpm_per_s.low, rpm_per_s.value, rpm_per_s.high}) {
+            const std::string source =
+                std::string("PROGRAM P\nMOTOR ") + motor +
+                ";\nVAR_MOTOR Place AT P1 := 5 rev; Fast AT V1 := " + std::to_string(v) +
+                " rpm; Soft AT A1 := " + std::to_string(a) +
+                " rpm/s; END_VAR\nON ERROR NEXT := Fault;\n"
+                "STEP S: IF IN0 THEN INIT(Fast, Soft); NEXT := M; END_IF END_STEP\n"
+                "STEP M: ENTRY POSITION(Place); IF INPOS THEN NEXT := S; END_IF END_STEP\n"
+                "STEP Fault: OWN ERROR; IF ANY ERROR AND IN2 THEN RESET_ERROR; NEXT := POWER_UP; END_IF "
+                "END_STEP\nEND_PROGRAM\n";
+            if (!compile(source).ok) return true;
+        }
+    }
+    return false;
+}
+
+TEST(MidiSetPoints, AValueThatTheDriveCannotDoIsTheErrorThatAConstantGives) {
+    Draw draw(7);
+    int refused = 0;
+    for (int i = 0; i < kMidiPrograms; ++i) {
+        const Range v = draw.range(1, 2500);
+        const Range a = draw.range(200, 40'000);
+        const Compilation compilation = compile(program(v, a, "MAC34"));
+        EXPECT_EQ(compilation.ok, !any_constant_is_refused(v, a, "MAC34")) << program(v, a, "MAC34");
+        EXPECT_EQ(test::codes(compilation).find("W016"), std::string::npos) << program(v, a, "MAC34");
+        refused += compilation.ok ? 0 : 1;
+    }
+    EXPECT_GT(refused, 20);
+    EXPECT_LT(refused, kMidiPrograms - 20);
+}
+
 /// A speed that is not 0 and too slow for a period lies between ends that are fast enough.
 TEST(MidiSetPoints, ARangeAboutNoSpeedIsRefused) {
     const Range soft{20'000, 20'000, 30'000};

@@ -32,6 +32,20 @@ std::string message(const std::string& stimulus) {
     return "(taken)";
 }
 
+TEST(Scan, PresetsOfSetPointsStandAboveTheHeader) {
+    const std::string text =
+        "# preset 10000 in term 5, 9: Soak := 10000 ms\r\n# preset 1 in term "
+        "0\ndt_ms,inputs,inpos,error\n1,2,0,0\n";
+    EXPECT_EQ(parse_presets(text, "s.csv"),
+              (std::vector<StimulusPreset>{{.value = 10000, .terms = {5, 9}}, {.value = 1, .terms = {0}}}));
+    EXPECT_EQ(parse_stimulus(text, "s.csv"), (std::vector<StimulusRow>{{1, 2}}));
+    EXPECT_TRUE(parse_presets("dt_ms,inputs,inpos,error\n", "s.csv").empty());
+    for (const char* wrong : {"# preset 70000 in term 1\n", "# preset 1 in term\n", "# Soak\n",
+                              "# preset 1 in term 2 Soak\n", "# preset 1 in term 2,\n"})
+        EXPECT_THROW(parse_presets(wrong, "s.csv"), InputError) << wrong;
+    EXPECT_NE(message("dt_ms,inputs,inpos,error\n# preset 1 in term 2\n"), "(taken)");
+}
+
 TEST(Scan, TheTimeToTheNextScanIsTakenOffAPreset) {
     // Step 0, timer and counter free (C0h); NEXT_STATE 1; no command (FAST_DIS); OUT0 and OUT3; timer 500 =
     // 01F4h

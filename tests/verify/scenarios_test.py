@@ -3,7 +3,8 @@
 usage: scenarios_test.py SEQC NANOPLC_SIM PROGRAM...
 
 Of each step `NEVER step = Name` is broken by the shortest course there. What seqc verify says of the scenario is what nanoplc-sim run
-says; where the virtual motor cannot follow, the stimulus comes to the same end in nanoplc-sim scan.
+says; where the virtual motor cannot follow, the stimulus comes to the same end in nanoplc-sim scan. Courses that need other values of
+set-points than the table's have them in both.
 """
 
 import json
@@ -14,6 +15,22 @@ import sys
 import tempfile
 
 import programs
+
+SET_POINTS = """PROGRAM Coats
+MOTOR MAC140;
+VAR_INPUT Go AT IN0 : BOOL; Ack AT IN1 : BOOL; END_VAR
+VAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR
+SET_POINT Coats := 3 RANGE 1 .. 5;
+SET_POINT Soak := 100 ms RANGE 10 ms .. 20 s;
+ON ERROR NEXT := Fault;
+STEP Idle: {takes} IF R_TRIG(Go) THEN COUNTER := Coats; NEXT := Soaking; END_IF END_STEP
+STEP Soaking: ENTRY TIMER := Soak; IF TIMER.Q THEN COUNT_DOWN; NEXT := Dry; END_IF END_STEP
+STEP Dry: OUT Lamp; IF COUNTER.Q THEN NEXT := Idle; ELSE NEXT := Soaking; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(Ack) THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP
+PROPERTY Short: WHENEVER STEP = Soaking THEN NOT STEP = Soaking WITHIN 150 ms;
+PROPERTY Many: WHENEVER STEP = Soaking FOLLOWED BY STEP = Dry THEN NOT COUNTER.Q;
+END_PROGRAM
+"""
 
 
 class Courses(programs.Programs):
@@ -48,6 +65,24 @@ class Courses(programs.Programs):
         self.draw()
         return counts
 
+    def check_set_points(self, takes):
+        """Long enough a time, and a single coat."""
+        program = self.path("set.seq", SET_POINTS.format(takes=takes).encode())
+        subprocess.run([self.seqc, "build", program, "--quiet", "-o", self.path("t.bin")], check=True)
+        with open(self.path("t.sym"), encoding="utf-8") as file:
+            steps = {s["number"]: s["name"] for s in json.load(file)["steps"]}
+        done = subprocess.run([self.seqc, "verify", program, "--json", "--scenario", self.path("out.scn"), "--stimulus", self.path("out.csv")],
+                              capture_output=True, text=True, check=False)
+        results = {r["name"]: r for r in json.loads(done.stdout)["results"]}
+        for name, end in (("Short", "Soaking"), ("Many", "Dry")):
+            assert results[name]["verdict"] == "broken", (name, results[name])
+            assert results[name]["scenario"]["plays"], results[name]["scenario"]
+            file = results[name]["scenario"]["file"]
+            scans = subprocess.run([self.nanoplc_sim, "scan", self.path("t.bin"), "--stimulus", os.path.splitext(file)[0] + ".csv"],
+                                   capture_output=True, text=True, check=True).stdout.splitlines()
+            step, counter = (int(scans[-1].split(",")[i]) for i in (1, 3))
+            assert steps[step] == end and (name != "Many" or counter == 0), (name, scans)
+
     def draw(self):
         """The first course as a picture."""
         plot = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "plot_trace")
@@ -74,6 +109,8 @@ def main():
         for program in paths:
             more, others = courses.check(program)
             follows, misses = follows + more, misses + others
+        courses.check_set_points("TAKES SET_POINTS;")
+        courses.check_set_points("")
         courses.check_alone(paths[-1])
     print(f"{len(paths)} programs: the virtual motor follows {follows} courses of {follows + misses}")
     assert follows >= 9 * misses

@@ -190,6 +190,7 @@ void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, c
     check_standing_in_position(plan, checks);
     if (symbols.drive == nullptr) check_lasting_motion(plan, sources.text(), checks);
     check_known_places(plan, symbols, scope.set_points(), sources.text(), checks);
+    check_zero_speed(plan, symbols, scope.set_points(), checks);
     check_restart(program, plan, scope, checks);
     check_guards(program, plan, scope, checks);
     check_arrivals(program, plan, checks);

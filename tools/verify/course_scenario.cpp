@@ -92,6 +92,10 @@ class Writer {
             result_.name, result_.text, result_.reason);
         for (const std::string& line : options_.plant) text_ += line + "\n";
         if (!options_.plant.empty()) text_ += "\n";
+        for (const SetValue& value : result_.set_values)
+            text_ += fmt::format("{}{} := {}", &value == &result_.set_values.front() ? "set " : " and ",
+                                 value.name, value.text);
+        if (!result_.set_values.empty()) text_ += "\n";
     }
 
     void add(const PlayedScan& scan) {

@@ -175,9 +175,13 @@ std::string story_of(const Result& result, const Names& names) {
     return columns.text() + end_text(result) + helpers_text(course, names);
 }
 
-std::string stimulus_of(const Course& course) {
-    std::string text = "dt_ms,inputs,inpos,error\n";
-    for (const PlayedScan& scan : course) {
+std::string stimulus_of(const Result& result) {
+    std::string text;
+    for (const SetValue& value : result.set_values)
+        text += fmt::format("# preset {} in term {}: {} := {}\n", value.preset, fmt::join(value.places, ", "),
+                            value.name, value.text);
+    text += "dt_ms,inputs,inpos,error\n";
+    for (const PlayedScan& scan : *result.course) {
         text += fmt::format("{},{},{},{}\n", scan.dt_ms, scan.image & sequencer::kInputsMask,
                             (scan.image & sequencer::kInPos) != 0 ? 1 : 0,
                             (scan.image & sequencer::kError) != 0 ? 1 : 0);

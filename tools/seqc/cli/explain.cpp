@@ -14,6 +14,7 @@
 #include "cli/subcommands.h"
 #include "diagnostics/explanations.h"
 #include "diagnostics/reference.h"
+#include "registers/details.h"
 #include "semantics/commands.h"
 #include "syntax/names.h"
 
@@ -112,6 +113,45 @@ std::string nearest_word(std::string_view wanted) {
     return guess.empty() ? guess : "; " + guess;
 }
 
+/// A mode, a bit or a field of the motors' registers: a line for each register that has it.
+std::vector<std::string> values_named(std::string_view word) {
+    std::vector<std::string> lines;
+    const auto add = [&](std::string line) {
+        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
+    };
+    for (const registers::Model model : {registers::Model::mac140, registers::Model::mac800}) {
+        for (const registers::Register& reg : registers::map_of(model)) {
+            const std::string place = fmt::format("{} (register {})", reg.name, reg.number);
+            for (const registers::Field& field : registers::fields_of(model, reg.number)) {
+                if (same_name(field.name, word) && field.width == 1)
+                    add(fmt::format("bit {} of {}: {}", field.first, place, field.meaning));
+                else if (same_name(field.name, word))
+                    add(fmt::format("bits {} to {} of {}: {}", field.first, field.first + field.width - 1,
+                                    place, field.meaning));
+                for (const registers::NamedValue& value : field.values) {
+                    if (same_name(value.name, word))
+                        add(fmt::format("value {} of {} in {}: {}", value.value, field.name, place,
+                                        value.meaning));
+                }
+            }
+        }
+    }
+    return lines;
+}
+
+/// Explains a name of the register maps.
+int explain_values(const std::string& word, const std::vector<std::string>& lines, bool json) {
+    if (json) {
+        Json document;
+        document["word"] = word;
+        document["values"] = lines;
+        return print_json(document, kOk);
+    }
+    std::string text = fmt::format("{}\n\nIn the motor's registers:\n", painted(stdout, "1", word));
+    for (const std::string& line : lines) text += indented(line + "\n");
+    return print_or_write(text, {});
+}
+
 int unknown(const ExplainArguments& options, const std::vector<Explanation>& all) {
     const std::string codes = nearest_codes(options.code, all);
     const std::string problem =
@@ -158,7 +198,9 @@ int explain(const ExplainArguments& options) {
         const std::string word =
             same_name(options.code, kMoving) ? std::string(kMoving) : command_of(upper(options.code));
         const std::vector<Paragraph> passages = passages_about(word);
-        return passages.empty() ? unknown(options, all) : explain_word(word, passages, options.json);
+        if (!passages.empty()) return explain_word(word, passages, options.json);
+        const std::vector<std::string> values = values_named(word);
+        return values.empty() ? unknown(options, all) : explain_values(word, values, options.json);
     }
     return options.json ? print_json(page_object(*found), kOk) : print_or_write(page(*found), {});
 }

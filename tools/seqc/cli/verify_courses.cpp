@@ -115,7 +115,7 @@ std::string written_courses(const verify::Report& report, const CourseFiles& wan
         const auto add = [&](const std::string& file, std::string text) {
             files.push_back({file_for(file, result.name, is_first), std::move(text)});
         };
-        if (!wanted.stimulus.empty()) add(wanted.stimulus, verify::stimulus_of(*result.course));
+        if (!wanted.stimulus.empty()) add(wanted.stimulus, verify::stimulus_of(result));
         if (!wanted.trace.empty()) add(wanted.trace, verify::trace_of(*result.course));
         if (!wanted.scenario.empty()) {
             Rehearsed done = rehearsed(result, program, file_for(wanted.scenario, result.name, is_first),

@@ -124,9 +124,15 @@ class AllValues {
 
     void add_values(Result& result, const Presets& values) const {
         std::string text;
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", points_[i].name,
-                                set_points::text_of(points_[i], values[i]));
+        result.set_values.clear();
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const SetPoint& point = points_[i];
+            const std::string value = set_points::text_of(point, values[i]);
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", point.name, value);
+            if (values[i] == defaults_[i]) continue;
+            result.set_values.push_back(
+                {point.name, value, static_cast<std::uint16_t>(values[i]), point.places});
+        }
         result.reason += fmt::format("{}with {}", result.reason.empty() ? "" : ", ", text);
     }
 

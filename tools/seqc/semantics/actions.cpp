@@ -48,7 +48,15 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
     double ms = value.number;
     const bool seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
-        report.add("E043", value.span, "the timer needs a time", "write it as T#500ms");
+        const bool minutes = same_name(value.unit.text, "min");
+        const bool is_short = same_name(value.unit.text, "us");
+        report.add("E043", value.span,
+                   minutes    ? "times are in ms and s"
+                   : is_short ? "the timer counts milliseconds"
+                              : "the timer needs a time",
+                   minutes    ? "write T#1m, or 60 s"
+                   : is_short ? "write 1 ms or more"
+                              : "write it as T#500ms");
         return std::nullopt;
     }
     if (seconds) ms *= 1000;

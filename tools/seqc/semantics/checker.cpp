@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "semantics/actions.h"
 #include "semantics/motors.h"
@@ -76,7 +77,7 @@ class Checker {
         warn_idle_conditions();
         for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
         check_raw_terms(plan, symbols_.drive, report_);
-        warn_unreachable(plan, report_);
+        warn_unreachable(plan, missing_returns(program_, scope_), report_);
         return plan;
     }
 
@@ -202,8 +203,9 @@ class Checker {
                 .notes.push_back({zero.name.span, "it has the number 0"});
         };
         if (program_.power_up) refuse(program_.power_up->name.span, "POWER_UP");
-        if (!scope_.initial_values().empty())
-            refuse(scope_.initial_values().front().span, "a value in VAR_MOTOR");
+        if (scope_.initial_values().empty()) return;
+        const Send& first = scope_.initial_values().front();
+        refuse(first.span, first.set_point != 0 ? "a SET_POINT with AT" : "a value in VAR_MOTOR");
     }
 
     StepPlan step(const ast::Step& written, std::uint8_t number) {
@@ -234,8 +236,7 @@ class Checker {
         return plan;
     }
 
-    /// Called once per state of the step's memory; conditions that are never true are checked where every
-    /// case can occur.
+    /// Called once per state of the step's memory; a condition is never true if it is in none of them.
     void add_rules(const ast::Step& written, StepPlan& plan) {
         plan.memory = memories_[plan.number];
         const std::size_t states = plan.memory.states();
@@ -404,13 +405,14 @@ class Checker {
         for (const ast::Branch& branch : choice.branches) {
             const std::size_t errors_before = report_.error_count() + scope_.faulty_names_met();
             const Truth own = truth_of(branch, has_limit);
-            const bool condition_sound = report_.error_count() + scope_.faulty_names_met() == errors_before;
+            const bool time_sound = !branch.timing || branch.timing->is_limit || memory_->is_held();
+            const bool condition_sound =
+                time_sound && report_.error_count() + scope_.faulty_names_met() == errors_before;
             Rule rule{own & ~taken, branch_action(branch, plan.number), place_of(branch)};
             taken |= own;
             before.push_back({own, {}, rule.condition});
-            if (rule.when.none()) {
-                if (condition_sound && state_ + 1 == memory_->states()) warn_never(branch, own, before);
-            } else if (!rule.action.is_empty()) {
+            if (is_never_taken(branch, condition_sound, rule.when, own, before)) warn_never(branch);
+            if (rule.when.any() && !rule.action.is_empty()) {
                 check_error_covered(place_of(branch), rule, plan);
                 const Span place = branch.condition ? rule.condition : rule.action.span;
                 add_rule(std::move(rule), place, index, plan, seen);
@@ -426,8 +428,21 @@ class Checker {
         return place;
     }
 
+    /// Known in the last of the states that is judged. Keeps of the branch what warn_never() tells.
+    bool is_never_taken(const ast::Branch& branch, bool sound, const Truth& when, const Truth& own,
+                        const std::vector<Rule>& up_to_it) {
+        Untaken& untaken = untaken_[&branch];
+        untaken.is_taken = untaken.is_taken || !sound || when.any();
+        if (!untaken.is_taken && untaken.own.none() && own.any()) {
+            untaken.own = own;
+            untaken.up_to_it = up_to_it;
+        }
+        return state_ == 0 && !untaken.is_taken;
+    }
+
     /// Records which branches take its cases, each case once.
-    void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
+    void warn_never(const ast::Branch& branch) {
+        const auto& [is_taken, own, up_to_it] = untaken_[&branch];
         if (own.none()) {
             report_.add("W001", place_of(branch), "this branch is never taken",
                         "its condition contradicts itself: mend it, or take the branch out");
@@ -549,7 +564,14 @@ class Checker {
     std::optional<std::uint8_t> fault_;
     std::vector<OnCondition> on_conditions_;
     std::array<Memory, 64> memories_;  ///< by step number
-    const Memory* memory_ = nullptr;   ///< of the present step, and its state
+    /// A branch through the states of its step's memory: its cases in the first one that has any.
+    struct Untaken {
+        bool is_taken = false;
+        Truth own;
+        std::vector<Rule> up_to_it;
+    };
+    std::map<const ast::Branch*, Untaken> untaken_;
+    const Memory* memory_ = nullptr;  ///< of the present step, and its state
     std::size_t state_ = 0;
 };
 

@@ -10,8 +10,17 @@ namespace nplc::seqc {
 /// Converts the program to mutually exclusive rules; reports surprising code.
 Plan check(const ast::Program& program, Scope& scope, Report& report);
 
+/// A step of a sequence without RETURN, and where its CALL would go on.
+struct MissingReturn {
+    ast::Name sequence;
+    ast::Name back;
+    std::uint8_t from = 0;
+    std::uint8_t to = 0;
+};
+std::vector<MissingReturn> missing_returns(const ast::Program& program, const Scope& scope);
+
 /// Warns about steps without a NEXT to them.
-void warn_unreachable(const Plan& plan, Report& report);
+void warn_unreachable(const Plan& plan, const std::vector<MissingReturn>& missing, Report& report);
 
 /// Tracks the motor's mode from step to step: reports orders that would start it towards an old target or not
 /// at all, and waits for an INPOS that never comes.
@@ -78,5 +87,12 @@ void check_moved_away(const Plan& plan, Report& report);
 
 /// Reports motor limits set by a program whose violation does not set ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
+
+/// Moves to a place with a velocity that is 0, or a set-point whose range holds 0.
+void check_zero_speed(const Plan& plan, const Symbols& symbols, const std::vector<DeclaredSetPoint>& points,
+                      Report& report);
+
+/// Waits for COUNTER.Q on ways that preset the counter and never count down. Not for programs with TERMs.
+void check_endless_counts(const Plan& plan, Report& report);
 
 }  // namespace nplc::seqc

@@ -70,9 +70,9 @@ class Copies {
         };
         std::optional<Span> switches;
         for (const StepPlan& from : plan_.steps) {
-            for (const Rule& rule : from.rules) {
+            for_each_rule(from, [&](const Rule& rule) {
                 if (rule.action.switches()) switches = rule.action.output_span;
-            }
+            });
             if (!from.memory.is_empty() && !from.terms.empty()) {
                 const Memory& memory = from.memory;
                 refuse(from.terms.front().span,
@@ -304,10 +304,10 @@ void check_shared_timer(const Plan& plan, Report& report) {
     std::map<std::uint8_t, Span> changed;  // steps entered with a timer that such a step has changed
     const auto note = [&](const StepPlan& from, Span by) {
         bool is_new = false;
-        for (const Rule& rule : from.rules) {
-            if (!leaves(from, rule) || rule.action.timer) continue;
+        for_each_rule(from, [&](const Rule& rule) {
+            if (!leaves(from, rule) || rule.action.timer) return;
             is_new = changed.emplace(*rule.action.next, by).second || is_new;
-        }
+        });
         return is_new;
     };
     for (bool again = true; again;) {

@@ -20,14 +20,23 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
+/// A value that a register is given: a constant, or a set-point with every value of its range.
+struct Given {
+    std::uint32_t value = 0;  ///< of a set-point the default
+    std::uint8_t set_point = 0;
+    bool operator<(const Given& other) const {
+        return std::pair(value, set_point) < std::pair(other.value, other.set_point);
+    }
+};
+
 /// The possible state of the drive. `v` and `a` do not include values that no statement writes.
 struct DriveState {
     bool known = false;
     bool positions = false;  ///< it may be moving to a position
     bool runs = false;       ///< it may be running at a velocity
     Span motion;             ///< the order that started the motion
-    std::set<std::int16_t> v;
-    std::set<std::uint16_t> a;
+    std::set<Given> v;
+    std::set<Given> a;
 
     bool is_known() const { return known; }
     bool moves() const { return positions || runs; }
@@ -118,7 +127,7 @@ class DriveWalk {
               const std::vector<DeclaredSetPoint>& points, Report& report, std::vector<Rounding>& roundings)
         : drive_(drive), points_(points), report_(report), roundings_(roundings) {
         for_each_send(plan, [this](const Send& send) {
-            if (send.reg != nullptr) given_[send.reg->number].merge(written_by(send));
+            if (send.reg != nullptr) given_[send.reg->number].insert({send.value, send.set_point});
         });
     }
 
@@ -141,27 +150,24 @@ class DriveWalk {
     }
 
   private:
-    /// For a set-point both ends of its range: a ramp is longest with one combination of ends, shortest with
-    /// another.
-    std::set<std::uint32_t> written_by(const Send& send) const {
-        if (send.set_point == 0) return {send.value};
-        const set_points::SetPoint& point = points_[send.set_point - 1U].point;
-        return {send.value, bits_of(point.lowest, *send.reg), bits_of(point.highest, *send.reg)};
+    std::set<Given> given_to(std::uint8_t number, const Send& send) const {
+        if (number == 0) return {{send.value, send.set_point}};
+        const auto found = given_.find(number);
+        return found == given_.end() ? std::set<Given>() : found->second;
     }
 
-    template <typename Value>
-    std::set<Value> values_of(std::uint8_t number, const Send& send) const {
-        std::set<Value> values;
-        const auto found = given_.find(number);
-        if (number != 0 && found == given_.end()) return values;
-        for (const std::uint32_t value : number == 0 ? written_by(send) : found->second)
-            values.insert(static_cast<Value>(value));
-        return values;
+    /// For a set-point the default and both ends of its range: a ramp is longest with one combination of
+    /// ends, shortest with another.
+    std::vector<std::uint32_t> values_of(const Given& given) const {
+        if (given.set_point == 0) return {given.value};
+        const DeclaredSetPoint& declared = points_[given.set_point - 1U];
+        return {given.value, bits_of(declared.point.lowest, *declared.reg),
+                bits_of(declared.point.highest, *declared.reg)};
     }
 
     void apply(const Send& send, const Effect& effect, DriveState& state) const {
-        if (effect.v) state.v = values_of<std::int16_t>(*effect.v, send);
-        if (effect.a) state.a = values_of<std::uint16_t>(*effect.a, send);
+        if (effect.v) state.v = given_to(*effect.v, send);
+        if (effect.a) state.a = given_to(*effect.a, send);
         const bool selects_only = effect.mode == 2U && !effect.sets_position && send.reg == nullptr;
         if (selects_only && !state.runs) {
             // It is at P_SOLL, or moving to it: see E052 for INIT.
@@ -205,15 +211,10 @@ class DriveWalk {
     void judge_ramps(const Send& send, const DriveState& state) {
         std::vector<std::string> impossible;
         registers::Refusal why;
-        for (const std::int16_t v : state.v) {
-            for (const std::uint16_t a : state.a) {
-                const registers::Refusal found = drive_.family->refuses_profile(drive_, v, a);
-                if (found.empty()) {
-                    note_ramp(send, v, a);
-                } else {
-                    why = found;
-                    impossible.push_back(fmt::format("{:.6g} rpm with {:.6g} rpm/s", rpm(v), rpm_per_s(a)));
-                }
+        for (const Given& v : state.v) {
+            for (const Given& a : state.a) {
+                std::string refused = refused_pair(send, v, a, why);
+                if (!refused.empty()) impossible.push_back(std::move(refused));
             }
         }
         if (impossible.empty() || !refused_.insert(send.span.offset).second) return;
@@ -224,6 +225,31 @@ class DriveWalk {
             report_.add("E044", send.span, message, std::string(why));
         else
             report_.add("W016", send.span, message + ", if they meet here", std::string(why));
+    }
+
+    /// Values of the two that the drive refuses; empty if it takes all of them.
+    std::string refused_pair(const Send& send, const Given& v, const Given& a, registers::Refusal& why) {
+        for (const std::uint32_t v_bits : values_of(v)) {
+            for (const std::uint32_t a_bits : values_of(a)) {
+                const auto velocity = static_cast<std::int16_t>(v_bits);
+                const auto acceleration = static_cast<std::uint16_t>(a_bits);
+                const registers::Refusal found =
+                    drive_.family->refuses_profile(drive_, velocity, acceleration);
+                if (found.empty()) {
+                    note_ramp(send, velocity, acceleration);
+                    continue;
+                }
+                why = found;
+                return fmt::format("{:.6g} rpm{} with {:.6g} rpm/s{}", rpm(velocity), whose(v),
+                                   rpm_per_s(acceleration), whose(a));
+            }
+        }
+        return {};
+    }
+
+    std::string whose(const Given& given) const {
+        if (given.set_point == 0) return {};
+        return fmt::format(" (a value of '{}')", points_[given.set_point - 1U].point.name);
     }
 
     /// Too small a difference to warn of.
@@ -250,8 +276,8 @@ class DriveWalk {
     const std::vector<DeclaredSetPoint>& points_;
     Report& report_;
     std::vector<Rounding>& roundings_;
-    std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
-    bool moved_before_ = false;                              ///< the scan whose orders are judged
+    std::map<std::uint8_t, std::set<Given>> given_;  ///< every value that a register is given
+    bool moved_before_ = false;                      ///< the scan whose orders are judged
     std::set<std::uint32_t> waited_;
     std::set<std::uint32_t> refused_;
     std::set<std::pair<std::int16_t, std::uint16_t>> noted_;

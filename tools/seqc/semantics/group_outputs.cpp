@@ -2,6 +2,7 @@
 
 #include <bitset>
 
+#include "semantics/on_conditions.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -30,8 +31,13 @@ Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast
 void spread_outputs(ast::Program& program, Scope& scope) {
     for (const ast::GroupOutput& spread : program.group_outputs) {
         const std::size_t groups = program.groups.size();
-        const Steps steps =
-            steps_of(spread.only, groups, program, scope) & ~steps_of(spread.except, groups, program, scope);
+        const Steps named = steps_of(spread.only, groups, program, scope);
+        Steps steps = named;
+        for (const ast::Name& name : spread.except) {
+            const Steps left_out = steps_of({name}, groups, program, scope);
+            if (left_out.any() && (left_out & named).none()) warn_of_idle_except(name, scope);
+            steps &= ~left_out;
+        }
         for (std::size_t i = 0; i < scope.steps().size(); ++i) {
             if (!steps.test(scope.number_of(i))) continue;
             for (ast::Step& step : program.steps) {

@@ -123,6 +123,16 @@ struct StepPlan {
     std::vector<RawTerm> terms;
 };
 
+/// In all states of the step's memory; until the copies are generated.
+template <class Visit>
+void for_each_rule(const StepPlan& step, const Visit& visit) {
+    for (const std::vector<Rule>& rules : step.rules_in) {
+        for (const Rule& rule : rules) visit(rule);
+    }
+    if (!step.rules_in.empty()) return;
+    for (const Rule& rule : step.rules) visit(rule);
+}
+
 /// The outputs written in the scan that leads to another step. `outputs_of`: of each step by number.
 inline std::uint8_t outputs_entered(const Action& action, const std::vector<std::uint8_t>& outputs_of) {
     if (action.outputs) return *action.outputs;

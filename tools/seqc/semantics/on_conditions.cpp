@@ -66,6 +66,16 @@ void warn_if_nowhere(const OnCondition& on, Scope& scope) {
                        "name in IN the steps that it is to end");
 }
 
+}  // namespace
+
+void warn_of_idle_except(const ast::Name& name, Scope& scope) {
+    scope.report().add("W001", name.span,
+                       fmt::format("EXCEPT does nothing here: IN does not name '{}'", name.text),
+                       "take it out, or name in IN the steps that are meant");
+}
+
+namespace {
+
 Steps all_steps(const Scope& scope) {
     Steps steps;
     for (std::size_t i = 0; i < scope.steps().size(); ++i) steps.set(scope.number_of(i));
@@ -93,7 +103,13 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
         } else {
             on.steps = groups.all_of(written.only);
         }
-        on.steps &= ~groups.all_of(written.except);
+        const Steps named = on.steps;
+        for (const ast::Name& name : written.except) {
+            const Steps left_out = groups.all_of({name});
+            if (left_out.any() && (left_out & named).none() && !written.only.empty())
+                warn_of_idle_except(name, scope);
+            on.steps &= ~left_out;
+        }
         warn_if_nowhere(on, scope);
         conditions.push_back(on);
     }

@@ -24,4 +24,7 @@ struct OnCondition {
 std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope,
                                        std::optional<std::uint8_t> fault);
 
+/// Of a step or group that IN does not name.
+void warn_of_idle_except(const ast::Name& name, Scope& scope);
+
 }  // namespace nplc::seqc

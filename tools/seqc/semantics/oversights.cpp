@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/scope.h"
 #include "semantics/units.h"
@@ -49,6 +50,7 @@ class Oversights {
         check_presets(kTimerZero, "W020", "TIMER.Q", "the timer", "TIMER := T#500ms; on the way to the step");
         check_presets(kCounterZero, "W020", "COUNTER.Q", "the counter",
                       "COUNTER := 5; on the way to the step");
+        check_endless_counts(plan_, report_);
         find_fault();
         check_exits();
         check_reset();

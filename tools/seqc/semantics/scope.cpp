@@ -269,6 +269,8 @@ void Scope::declare_motor_variables(const ast::Program& program) {
             initial_values_.push_back(
                 {target, 0, *bits, {first.offset, last.offset + last.length - first.offset}});
             named.initial = static_cast<std::int64_t>(number_of_bits(*bits, target->format));
+        } else {
+            faulty_.insert(upper(variable.name.text));  // as a value: other ones may be worked out from it
         }
     }
 }

@@ -23,8 +23,8 @@ class Expansion {
 
     void run() {
         refuse_same_names();
-        if (program_.power_up) expand_step(*program_.power_up, {}, false);
         callers_.resize(program_.steps.size());
+        if (program_.power_up) expand_step(*program_.power_up, {}, false);
         // Steps added by a call are processed too. The limit is that of the table, with a margin for the
         // error message.
         constexpr std::size_t kMost = 256;
@@ -112,8 +112,13 @@ class Expansion {
         if (sequence == nullptr) {
             std::vector<std::string_view> names;
             for (const ast::Sequence& known : program_.sequences) names.push_back(known.name.text);
+            std::string help = suggestion(call.name.text, names);
+            if (help.empty())
+                help = names.empty() ? fmt::format("write SEQUENCE {}() .. END_SEQUENCE above the steps",
+                                                   call.name.text)
+                                     : fmt::format("there are: {}", fmt::join(names, ", "));
             report_.add("E021", call.name.span, fmt::format("there is no SEQUENCE '{}'", call.name.text),
-                        suggestion(call.name.text, names));
+                        help);
             return std::nullopt;
         }
         if (sequence->is_broken || !fits(*sequence, call) || sequence->steps.empty()) return std::nullopt;

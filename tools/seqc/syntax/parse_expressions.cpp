@@ -58,6 +58,10 @@ bool Parser::parse_operators(Expression& result, std::size_t level) {
 bool Parser::parse_primary(Expression& result) {
     const bool before_operand = is_word_at(1) || (token(1).kind == TokenKind::symbol && token(1).text == "(");
     if (before_operand) mend({"NOT"}, "a condition");
+    if (refuse_misplaced_time() && at("THEN")) {
+        result = {};
+        return true;
+    }
     const Token first = token();
     if (depth_ == kDeepest && (at("NOT") || at_symbol("("))) {
         report_.add("E013", first.span, "this condition is nested too deeply",
@@ -77,6 +81,7 @@ bool Parser::parse_primary(Expression& result) {
         ++depth_;
         const bool sound = parse_expression(result);
         --depth_;
+        if (sound) refuse_misplaced_time();
         return sound && expect_symbol(")", "to close the parenthesis");
     }
     const bool sound = parse_named_primary(result);

@@ -152,6 +152,7 @@ bool Parser::refuse_foreign_word() {
 
 bool Parser::refuse_foreign_item(ast::Program& program) {
     const Token first = token();
+    if (refuse_blinking_group()) return true;
     if (!refuse_foreign_word()) return false;
     program.steps_missing = true;
     program.names_missing = true;
@@ -221,6 +222,13 @@ bool Parser::refuse_call_or_part() {
             "a step is the active one while its branches are judged; how long it may take says IF condition "
             "WITHIN T#3s, or TIMER := T#3s; on the way to it and TIMER.Q";
     if (same_name(last.text, "INPOS") || same_name(last.text, "ERROR")) help = "write " + upper(last.text);
+    const bool is_edge = same_name(first.text, "R_TRIG") || same_name(first.text, "F_TRIG");
+    if (in_property_ && calls && is_edge) {
+        const bool rises = same_name(first.text, "R_TRIG");
+        report_.add("E014", span_since(first), "a property looks at one scan after another, and has no edges",
+                    rises ? "write NOT Start FOLLOWED BY Start" : "write Start FOLLOWED BY NOT Start");
+        return true;
+    }
     report_.add("E014", span_since(first),
                 calls ? fmt::format("a condition calls nothing: there is no function '{}'", first.text)
                       : fmt::format("'{}' has no parts", first.text),

@@ -18,6 +18,7 @@ constexpr auto kOutside = std::to_array<std::string_view>(
 
 /// CONST in a step. An unclosed step looks the same: then a STEP comes before END_STEP.
 bool Parser::refuse_item_inside() {
+    if (refuse_sequence_inside()) return true;
     const std::string_view word = token().text;
     if (token().kind != TokenKind::identifier ||
         std::none_of(kOutside.begin(), kOutside.end(),

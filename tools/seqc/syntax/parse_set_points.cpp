@@ -40,8 +40,14 @@ bool Parser::parse_set_point_place(ast::SetPoint& point) {
 
 /// RANGE low .. high [STEP step]
 bool Parser::parse_range(ast::SetPoint& point) {
-    if (!expect("RANGE", "behind the value, as in RANGE 10 .. 200 mm") || !parse_value(point.low) ||
-        !expect_symbol("..", "between the ends of the range, as in RANGE 10 .. 200 mm") ||
+    if (!expect("RANGE", "behind the value, as in RANGE 10 .. 200 mm") || !parse_value(point.low))
+        return false;
+    if (at_symbol(";") && point.low.kind == ast::Value::Kind::sum) {
+        error_here("'..' between the ends of the range",
+                   "10 - 200 is a difference: write RANGE 10 .. 200 mm");
+        return false;
+    }
+    if (!expect_symbol("..", "between the ends of the range, as in RANGE 10 .. 200 mm") ||
         !parse_value(point.high)) {
         return false;
     }

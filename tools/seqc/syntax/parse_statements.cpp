@@ -185,7 +185,7 @@ bool Parser::parse_simple_statement(Statement& statement) {
         return parse_register_number(statement.register_number) &&
                expect_symbol(":=", "after the register") && parse_value(statement.value);
     }
-    if (refuse_foreign_word()) return false;
+    if (refuse_time_as_statement() || refuse_foreign_word()) return false;
     if (token().kind == TokenKind::identifier && is_reserved(token().text)) {
         error_here("a statement", "statements are NEXT := Step; TIMER := T#1s; commands and register values");
         return false;
@@ -210,13 +210,13 @@ bool Parser::parse_switched_outputs(Statement& statement) {
     note_use(ast::Role::keyword, token().span);
     ++at_;
     if (refuse_set_of_value(statement)) return false;
-    return parse_outputs(statement.arguments);
+    return parse_outputs(statement.arguments) && !refuse_condition_of_set(statement);
 }
 
 bool Parser::parse_assignment(Statement& statement) {
     ++at_;
     statement.kind = Statement::Kind::assign;
-    return parse_value(statement.value);
+    return parse_value(statement.value) && !refuse_or_of_bits();
 }
 
 bool Parser::parse_arguments(Statement& statement) {

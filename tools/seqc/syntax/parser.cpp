@@ -205,6 +205,11 @@ void Parser::parse_group(ast::Program& program) {
 }
 
 void Parser::parse_constant(ast::Program& program) {
+    parse_one_constant(program);
+    mend_constant_block(program);
+}
+
+void Parser::parse_one_constant(ast::Program& program) {
     ++at_;
     ast::Constant constant;
     if (is_word_at(0) && is_word_at(1)) {
@@ -487,7 +492,7 @@ void Parser::parse_out(ast::Step& step) {
                     "leave it out: an output that OUT does not name is off");
         return recover();
     }
-    if (!parse_outputs(outputs)) return recover();
+    if (refuse_out_of_set() || !parse_outputs(outputs)) return recover();
     if (at("IN")) {
         report_.add("E010", token().span, "OUT with IN stands outside of the steps",
                     "in a step OUT Name; is what is on in it");
@@ -504,12 +509,13 @@ void Parser::parse_out(ast::Step& step) {
 
 /// The part after the names: WHEN, BLINKING or nothing.
 bool Parser::parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step) {
+    mend_blinking();
     if (!at("WHEN") && !at("BLINKING")) mend({"WHEN", "BLINKING"}, "';', WHEN or BLINKING");
     if (take("BLINKING")) {
         note_use(ast::Role::keyword, tokens_[at_ - 1].span);
         ast::Blinking blinking;
         blinking.outputs = std::move(outputs);
-        if (!expect_time(blinking.time, "BLINKING")) return false;
+        if (!expect_time(blinking.time, "BLINKING") || refuse_behind_blinking()) return false;
         blinking.span = span_since(first);
         step.blinking.push_back(std::move(blinking));
     } else if (take("WHEN")) {

@@ -103,6 +103,7 @@ class Parser {
     bool parse_names(std::vector<ast::Name>& names);
     void parse_group(ast::Program& program);
     void parse_constant(ast::Program& program);
+    void parse_one_constant(ast::Program& program);
     void parse_variables(std::vector<ast::Variable>& variables, ast::Role role);
     void parse_variable(std::vector<ast::Variable>& variables, ast::Role role);
     bool parse_address(ast::Variable& variable, bool motor);
@@ -159,6 +160,18 @@ class Parser {
     bool refuse_time_as_condition(ast::Expression& result);
     bool refuse_modulo(ast::Value& value);
     bool expect_time(ast::Value& time, std::string_view word);
+
+    // parse_misplaced.cpp: words where another one belongs
+    bool refuse_misplaced_time();
+    bool refuse_time_as_statement();
+    bool refuse_condition_of_set(const ast::Statement& statement);
+    bool refuse_out_of_set();
+    void mend_blinking();
+    bool refuse_behind_blinking();
+    bool refuse_blinking_group();
+    bool refuse_sequence_inside();
+    void mend_constant_block(ast::Program& program);
+    bool refuse_or_of_bits();
 
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);

@@ -21,8 +21,9 @@ std::string order_text(const sequencer::MotorOrder& order, const Names& names);
 /// breaks, and the helper steps on the way. The result must have a course.
 std::string story_of(const Result& result, const Names& names);
 
-/// For `nanoplc-sim scan`: a row a scan.
-std::string stimulus_of(const Course& course);
+/// For `nanoplc-sim scan`: a row a scan, below the presets of set-points with other values than the table's.
+/// The result must have a course.
+std::string stimulus_of(const Result& result);
 
 /// For `tools/plot_trace`: a row a scan, with the state after it; where the shaft is stays empty.
 std::string trace_of(const Course& course);

@@ -15,6 +15,14 @@ namespace nplc::verify {
 
 enum class Verdict : std::uint8_t { proved, broken, undecided };
 
+/// A set-point in a course that needs another value than the table's.
+struct SetValue {
+    std::string name;
+    std::string text;  ///< the value in its unit
+    std::uint16_t preset = 0;
+    std::vector<std::uint16_t> places;  ///< numbers of the terms with it
+};
+
 struct Result {
     std::string name{};
     std::string code{};                  ///< of a built-in check
@@ -29,6 +37,7 @@ struct Result {
     bool is_late = false;    ///< the course ends some time after its last scan, at a deadline
     std::optional<Course> course{};       ///< the shortest counterexample, or course to what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
+    std::vector<SetValue> set_values{};   ///< the same by the program's names
 };
 
 struct Options {
