@@ -105,8 +105,7 @@ MotorItem MotorReader::next_other(registers::Model model) {
 /// Position, speed, position, and then alternately the torque and one of the others. At first, and after a
 /// pause, every second read is of the others, until each was read once.
 void MotorReader::choose_item(const AxisImage& image) {
-    constexpr unsigned kFrequent = 2;
-    constexpr unsigned kOthers = kMotorItems - kFrequent;
+    const registers::Model model = model_of(image);
     const unsigned turn = turn_++;
     MotorItem item = turn % 2 == 0 ? MotorItem::position : MotorItem::velocity;
     if (hurried_ != 0 && turn % 4 >= 2) {
@@ -162,8 +161,11 @@ void MotorReader::note_item(AxisImage& image, base::Instant wall) {
     const registers::Register& found = *register_of(item, model_of(image));
     MotorValue& kept = image.motor[static_cast<std::size_t>(item)];
     const std::int32_t value = signed_value(found, value_);
-    if (item == MotorItem::position)
-        image.moves = kept.is_known && std::abs(std::int64_t{value} - kept.value) >= kMotion;
+    if (item == MotorItem::position) {
+        const bool moves = kept.is_known && std::abs(std::int64_t{value} - kept.value) >= kMotion;
+        if (moves && !image.moves) image.moving_since = wall;
+        image.moves = moves;
+    }
     kept = {true, value, wall};
 }
 
@@ -172,9 +174,9 @@ void MotorReader::look_around(gateway::Controller& controller, AxisImage& image,
     if (period_.count() == 0) return;
     if (!wanted_) {
         if (wall >= due_) {
+            if (wall - due_ > kPause) hurried_ = kHurried;
             due_ = wall + period_;
             choose_item(image);
-            if (wall - due_ > kPause) hurried_ = kHurried;
         } else if (surveys()) {
             choose_surveyed();
         }
