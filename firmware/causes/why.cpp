@@ -101,14 +101,16 @@ std::vector<Finding> why(const GatewayState& gateway) {
     return all;
 }
 
-Finding moving(registers::Model model, std::int64_t v_ist) {
+Finding moving(registers::Model model, std::optional<std::int64_t> v_ist) {
     Condition condition{.model = model};
-    condition.now.set(registers::find(model, "V_IST")->number, v_ist, {});
+    condition.now.set(registers::find(model, "V_IST")->number, v_ist.value_or(0), {});
     const Facts facts(condition);
     const auto found = std::find_if(rules().begin(), rules().end(), [](const Rule<Facts>& rule) {
         return rule.code == "moves" && rule.sentence.starts_with("It moves");
     });
-    return finding_of(*found, facts);
+    Finding finding = finding_of(*found, facts);
+    if (!v_ist) finding.sentence = "It moves.";
+    return finding;
 }
 
 }  // namespace nplc::causes

@@ -52,6 +52,14 @@ void World::act(const action::OnMotor& what) {
     if (const std::string_view missing = drive_->act(what); !missing.empty()) drive_has_no(missing);
 }
 
+bool World::shaft_is_blocked() const {
+    if (drive_) return drive_->is_blocked();
+    const Load& load = mac_.plant().load();
+    const bool is_rigid = load.low_stop && load.high_stop && load.low_stop->spring_1024 == 0 &&
+                          load.high_stop->spring_1024 == 0;
+    return is_rigid && load.low_stop->counts >= load.high_stop->counts;
+}
+
 /// Reports the missing part; the scenario goes on.
 void World::drive_has_no(std::string_view what) {
     log(fmt::format("the virtual {} drive does not have {}", options_.drive->model->family->name(), what));

@@ -141,6 +141,9 @@ void PanelDoor::serve(Session& session) {
         state_.milliseconds = static_cast<std::uint64_t>(session.now().count() / 1'000'000);
     }
     for (const Wanted& one : wanted) perform(session, one);
+    const std::lock_guard lock(mutex_);
+    state_.is_cut = session.world().line_is_cut();
+    state_.is_blocked = session.world().shaft_is_blocked();
 }
 
 PanelDoor::Found PanelDoor::find(std::size_t, std::uint32_t crc) {

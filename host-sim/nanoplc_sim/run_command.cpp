@@ -285,7 +285,7 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     if (!program.remark.empty()) host::complain(program.remark);
     tell_stand_in(options, program);
     const auto flash = open_flash(options);
-    SimFaces faces;
+    SimFaces faces(program.names);
     if (options.modbus) {
         if (const std::string error = faces.open_modbus(*options.modbus); !error.empty())
             throw InputError("--modbus " + error);

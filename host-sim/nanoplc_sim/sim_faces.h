@@ -17,11 +17,19 @@
 
 namespace nplc::sim {
 
+/// By SCALE of the program; revolutions without one.
+inline faces::Scaling scaling_of(const Names& names) {
+    if (!names.machine) return {};
+    return {.unit = names.machine->name, .per_revolution = names.machine->per_rev};
+}
+
 /// The faces' view of the simulated axis, whose name is "sim". Faces use the wall clock, the gateway virtual
 /// time, which follows it.
 class SimFaces {
   public:
-    SimFaces() { model_.wake_loop_with(bell_); }
+    explicit SimFaces(const Names& names = {}) : model_("sim", scaling_of(names)) {
+        model_.wake_loop_with(bell_);
+    }
     SimFaces(const SimFaces&) = delete;
     SimFaces& operator=(const SimFaces&) = delete;
 
@@ -98,7 +106,7 @@ class SimFaces {
   private:
     hal_linux::Wakeup wakeup_;
     faces::Bell bell_{[this] { wakeup_.ring(); }};
-    faces::AxisModel model_{"sim"};
+    faces::AxisModel model_;
     faces::AxisLoop loop_{model_, {}};
     std::uint64_t starts_ = 0;
     std::unique_ptr<modbus::TcpServer> modbus_;

@@ -31,6 +31,7 @@ class StepVirtual final : public VirtualDrive {
         snapshot.torque = 0;
     }
     void cut(bool cut) override { cut ? line_.cut() : line_.restore(); }
+    bool is_cut() const override { return line_.is_cut(); }
     void spoil(const action::SpoilLine&) override {}
     void reseed(std::uint64_t seed) override { line_.reseed(seed); }
     void power(bool on) override { is_on_ = on; }

@@ -95,6 +95,33 @@ test("a stop that the motor does not confirm says that it may be moving", () =>
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
   }));
 
+test("a stop that the motor does not confirm is given up after a question", () =>
+  withPages(1, async (machine, page) => {
+    await operate(page, machine.token);
+    await page.click("#sim-cut");
+    await page.click("#do-stop");
+    await page.click("#do-give-up");
+    await page.click("#notices button:has-text('Give the stop up')");
+    await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
+    await hasText(page, "#sim-cut", "Restore the line");
+  }));
+
+test("a page that comes later knows that the line is cut and the shaft blocked, whoever did it", () =>
+  withPages(2, async (machine, first, second) => {
+    await operate(first, machine.token);
+    await first.fill("#sim-action", "line cut");
+    await first.press("#sim-action", "Enter");
+    await hasText(second, "#sim-cut", "Restore the line");
+    await first.click("#sim-block");
+    await hasText(second, "#sim-block", "Free the shaft");
+    await second.reload();
+    await hasText(second, "#sim-cut", "Restore the line");
+    await first.click("#sim-cut");
+    await first.click("#sim-block");
+    await hasText(second, "#sim-cut", "Cut the line");
+    await hasText(second, "#sim-block", "Block the shaft");
+  }));
+
 test("run, step, scan and breakpoints", () =>
   withPages(1, async (machine, page) => {
     await operate(page, machine.token);

@@ -22,6 +22,10 @@ TEST(PanelRequest, CommandsByName) {
     EXPECT_EQ(run.command->origin, kNow);
     EXPECT_FALSE(run.command->is_stop());
     EXPECT_TRUE(asked(R"({"id":1,"do":"command","name":"stop"})").command->is_stop());
+    const Asked given_up = asked(R"({"id":1,"do":"command","name":"give_up_stop"})");
+    ASSERT_TRUE(given_up.command.has_value());
+    EXPECT_TRUE(given_up.command->operates());
+    EXPECT_FALSE(given_up.command->is_stop()) << "it needs the seat";
     EXPECT_FALSE(asked(R"({"id":1,"do":"command","name":"upload_begin"})").command.has_value());
     EXPECT_FALSE(asked(R"({"id":1,"do":"command","name":"RUN"})").command.has_value());
     EXPECT_FALSE(asked(R"({"id":1,"do":"command"})").command.has_value());

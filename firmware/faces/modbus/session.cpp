@@ -49,6 +49,16 @@ std::uint32_t long_in(const Request& request, std::size_t word, bool low_first) 
     return low_first ? one | two << 16 : one << 16 | two;
 }
 
+bool asks_motor(const Request& request) {
+    if (request.writes) return false;
+    const auto rows = value_rows();
+    return std::any_of(rows.begin(), rows.end(), [&request](const ValueRow& row) {
+        return row.point->of_motor && row.space == request.space &&
+               row.address < request.address + unsigned{request.count} &&
+               row.address + unsigned{row.words} > request.address;
+    });
+}
+
 bool cuts_a_set_point(const Request& request) {
     const unsigned end = request.address + unsigned{request.count};
     const bool at_begin = request.address > kSetPointsNew && (request.address - kSetPointsNew) % 2 != 0;
@@ -110,6 +120,7 @@ std::optional<Answer> Session::serve(std::uint8_t number, std::span<const std::u
     const bool asks_why = request.space == Space::input_register && request.address < kWhyEnd &&
                           request.address + request.count > kWhy;
     const faces::AxisImage image = asks_why ? unit->model.image_with_why(now, &why) : unit->model.image(now);
+    if (asks_motor(request)) unit->model.want_motor(now);
     const Look look{.unit = *unit,
                     .index = static_cast<std::size_t>(place - units_.begin()),
                     .image = image,

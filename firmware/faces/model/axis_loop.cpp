@@ -101,12 +101,13 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
         image_.motor_contact = wall;
         image_.had_contact = true;
     }
-    if (!model_.is_wanted(wall)) return;
+    const bool is_wanted = model_.is_wanted(wall);
+    if (!is_wanted && !model_.wants_motor(wall)) return;
     if (!reader_.is_for_face()) {
         reader_.look_around(controller, image_, now, wall);
         survey();
     }
-    if (wall >= image_.taken + AxisModel::kPeriod) take_image(controller);
+    if (is_wanted && wall >= image_.taken + AxisModel::kPeriod) take_image(controller);
 }
 
 /// For clients that ask for the cause of a standstill. An order waits while a register is read, so this is
@@ -153,8 +154,9 @@ base::Instant AxisLoop::next(const gateway::Controller& controller) const {
         const bool waits_for_motor = begun_ && reader_.is_for_face();
         next = std::min(next, waits_for_motor ? reader_.next(controller, wall_) : wall_ + kBriefly);
     }
-    if (!model_.is_wanted(wall_)) return next;
-    next = std::min(next, image_.taken + AxisModel::kPeriod);
+    const bool is_wanted = model_.is_wanted(wall_);
+    if (!is_wanted && !model_.wants_motor(wall_)) return next;
+    if (is_wanted) next = std::min(next, image_.taken + AxisModel::kPeriod);
     return std::min(next, reader_.is_idle() ? reader_.due() : reader_.next(controller, wall_));
 }
 

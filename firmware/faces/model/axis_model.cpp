@@ -18,6 +18,16 @@ bool AxisModel::is_wanted(base::Instant now) const {
            base::Microseconds(kInterest).count();
 }
 
+void AxisModel::want_motor(base::Instant now) {
+    motor_asked_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+}
+
+bool AxisModel::wants_motor(base::Instant now) const {
+    const std::int64_t asked = motor_asked_.load(std::memory_order_relaxed);
+    return wants_survey(now) ||
+           now.time_since_epoch().count() - asked <= base::Microseconds(kMotorInterest).count();
+}
+
 AxisImage AxisModel::image_with_why(base::Instant now, std::shared_ptr<const Findings>* findings) {
     why_asked_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
     AxisImage image = this->image(now);

@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint8_t kMostFailures = 2;
 constexpr base::Microseconds kLongest{1'000'000};
 constexpr base::Microseconds kBusy{1'000};
+constexpr base::Microseconds kPause{10'000'000};  ///< without a read, after which all is read anew
 
 std::int32_t signed_value(const registers::Register& reg, std::uint32_t value) {
     if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(value);
@@ -37,6 +38,7 @@ void MotorReader::forget() {
     survey_ended_ = false;
     asked_ = false;
     ended_ = {};
+    hurried_ = kHurried;
 }
 
 void MotorReader::drop(gateway::Controller& controller) {
@@ -89,18 +91,33 @@ base::Instant MotorReader::next(const gateway::Controller& controller, base::Ins
     return std::min(patience, std::max(now + kBusy, ended_ + pause(controller)));
 }
 
-/// Position, speed, position, and then alternately the torque and one of the others.
+/// The next one of the motor that is not read oftener.
+MotorItem MotorReader::next_other(registers::Model model) {
+    constexpr auto kFirst = static_cast<unsigned>(MotorItem::error_word);
+    MotorItem item{};
+    do {
+        item = static_cast<MotorItem>(other_);
+        other_ = other_ + 1 < kMotorItems ? other_ + 1 : kFirst;
+    } while (item == MotorItem::torque || register_of(item, model) == nullptr);
+    return item;
+}
+
+/// Position, speed, position, and then alternately the torque and one of the others. At first, and after a
+/// pause, every second read is of the others, until each was read once.
 void MotorReader::choose_item(const AxisImage& image) {
-    constexpr unsigned kFrequent = 2;
-    constexpr unsigned kOthers = kMotorItems - kFrequent;
+    const registers::Model model = model_of(image);
     const unsigned turn = turn_++;
-    const auto other = static_cast<MotorItem>(kFrequent + turn / 8 % kOthers);
-    const auto item = turn % 8 == 3   ? MotorItem::torque
-                      : turn % 8 == 7 ? other
-                                      : static_cast<MotorItem>(turn % 2);
-    const registers::Register* found = register_of(item, model_of(image));
-    if (found == nullptr) return;
-    begin({.reg = found->number, .longword = registers::is_32_bit(found->format)});
+    MotorItem item = turn % 2 == 0 ? MotorItem::position : MotorItem::velocity;
+    if (hurried_ != 0 && turn % 4 >= 2) {
+        --hurried_;
+        item = hurried_ == 0 ? MotorItem::torque : next_other(model);
+    } else if (turn % 8 == 3) {
+        item = MotorItem::torque;
+    } else if (turn % 8 == 7) {
+        item = next_other(model);
+    }
+    const registers::Register& found = *register_of(item, model);
+    begin({.reg = found.number, .longword = registers::is_32_bit(found.format)});
     item_ = item;
 }
 
@@ -144,8 +161,11 @@ void MotorReader::note_item(AxisImage& image, base::Instant wall) {
     const registers::Register& found = *register_of(item, model_of(image));
     MotorValue& kept = image.motor[static_cast<std::size_t>(item)];
     const std::int32_t value = signed_value(found, value_);
-    if (item == MotorItem::position)
-        image.moves = kept.is_known && std::abs(std::int64_t{value} - kept.value) >= kMotion;
+    if (item == MotorItem::position) {
+        const bool moves = kept.is_known && std::abs(std::int64_t{value} - kept.value) >= kMotion;
+        if (moves && !image.moves) image.moving_since = wall;
+        image.moves = moves;
+    }
     kept = {true, value, wall};
 }
 
@@ -154,6 +174,7 @@ void MotorReader::look_around(gateway::Controller& controller, AxisImage& image,
     if (period_.count() == 0) return;
     if (!wanted_) {
         if (wall >= due_) {
+            if (wall - due_ > kPause) hurried_ = kHurried;
             due_ = wall + period_;
             choose_item(image);
         } else if (surveys()) {

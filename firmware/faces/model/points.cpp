@@ -17,9 +17,9 @@ namespace {
 namespace gw = registers::gateway;
 using gw::RunState;
 
-/// Frequent values of the motor are valid for 1 s, the others, which are read in turns, for 10 s.
+/// Frequent values of the motor are valid for 1 s, the others, which are read in turns of some 8 s, for 20 s.
 constexpr base::Milliseconds kFrequent{1'000};
-constexpr base::Milliseconds kSeldom{10'000};
+constexpr base::Milliseconds kSeldom{20'000};
 
 PointValue plain(const AxisImage& image, base::Instant now, double value) {
     return {quality_of(image, now), value};

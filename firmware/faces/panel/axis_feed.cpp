@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "causes/codes.h"
@@ -22,8 +23,12 @@ using faces::AxisImage;
 
 constexpr std::size_t kMostEvents = 200;
 constexpr std::uint8_t kFirstEvent = 16;
-/// Validity of a motor value.
-constexpr base::Milliseconds kMotorLimit{2'000};
+
+/// Validity of a motor value: more than twice the time after which it is read again.
+base::Milliseconds limit_of(faces::MotorItem item) {
+    if (faces::is_frequent(item)) return base::Milliseconds(2'000);
+    return base::Milliseconds(item == faces::MotorItem::torque ? 3'000 : 20'000);
+}
 
 /// They change continuously: ten updates a second are enough.
 constexpr std::array kOften{own::UPTIME,     own::SCANS,  own::SCAN_TIME, own::SCAN_WORST, own::TIMER,
@@ -51,18 +56,21 @@ std::string_view name_of(faces::MotorItem item, const AxisImage& image) {
     return reg == nullptr ? std::string_view() : reg->name;
 }
 
+/// Newly read values, and once more those that have become old since `before` was told.
 Json motor_values(const AxisImage& image, const AxisImage* before, base::Instant now) {
     Json values = Json::object();
     for (std::size_t i = 0; i < faces::kMotorItems; ++i) {
         const auto item = static_cast<faces::MotorItem>(i);
         const faces::MotorValue& value = image.of_motor(item);
         if (!value.is_known) continue;
+        const bool is_good = value.quality(now, limit_of(item)) == faces::Quality::good;
         if (before != nullptr && before->of_motor(item).is_known &&
-            before->of_motor(item).taken == value.taken)
-            continue;
+            before->of_motor(item).taken == value.taken) {
+            const bool was_good = value.quality(before->taken, limit_of(item)) == faces::Quality::good;
+            if (is_good || !was_good) continue;
+        }
         const std::string_view name = name_of(item, image);
         if (name.empty()) continue;
-        const bool is_good = value.quality(now, kMotorLimit) == faces::Quality::good;
         values[std::string(name)] = {value.value, milliseconds(now, value.taken), is_good};
     }
     return values;
@@ -247,7 +255,7 @@ void AxisFeed::take_program() {
     if (symbols.is_discarded() || !symbols.is_object()) symbols = Json();
     const Json message = {{"t", "program"},
                           {"axis", model_.name()},
-                          {"file", names.file},
+                          {"file", std::filesystem::path(names.file).filename().string()},
                           {"crc", table_->crc},
                           {"table", to_base64(table_->bytes)},
                           {"proof", proof_in_hex(image_)},

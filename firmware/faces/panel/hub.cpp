@@ -170,8 +170,9 @@ void Hub::tell_seat(ClientId client, AxisPart& part, AxisFeed& feed) {
 
 void Hub::tell_simulation(ClientId client, Session& session, base::Instant now) {
     const Simulation::State state = simulation_->state();
-    const std::string rest = fmt::format("\"paused\":{},\"speed\":{},\"recorded\":{}", state.is_paused,
-                                         state.speed, state.recorded);
+    const std::string rest =
+        fmt::format("\"paused\":{},\"speed\":{},\"recorded\":{},\"cut\":{},\"blocked\":{}", state.is_paused,
+                    state.speed, state.recorded, state.is_cut, state.is_blocked);
     if (rest == session.simulation && now - session.told_time < kBeat) return;
     session.simulation = rest;
     session.told_time = now;

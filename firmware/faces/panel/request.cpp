@@ -14,9 +14,9 @@ namespace own = registers::gateway;
 
 constexpr std::int64_t kLargestId = std::int64_t{1} << 53;
 constexpr std::array kCommands{
-    own::Command::run,       own::Command::stop,         own::Command::safe,    own::Command::scan,
-    own::Command::step,      own::Command::hold,         own::Command::reset,   own::Command::keep_settings,
-    own::Command::clear_log, own::Command::upload_abort, own::Command::activate};
+    own::Command::run,       own::Command::stop,         own::Command::safe,     own::Command::scan,
+    own::Command::step,      own::Command::hold,         own::Command::reset,    own::Command::keep_settings,
+    own::Command::clear_log, own::Command::upload_abort, own::Command::activate, own::Command::give_up_stop};
 
 /// Makes a client's text safe for a message.
 std::string shown(std::string_view text) {

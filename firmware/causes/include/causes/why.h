@@ -37,7 +37,7 @@ std::vector<const registers::Register*> judged_before(registers::Model model);
 std::vector<Finding> why(const Condition& condition);
 /// The same where nothing is known of the motor: the gateway's own findings. May be empty.
 std::vector<Finding> why(const GatewayState& gateway);
-/// "moves", of a motor whose velocity alone is known.
-Finding moving(registers::Model model, std::int64_t v_ist);
+/// "moves", of a motor whose velocity alone is known, or not even that.
+Finding moving(registers::Model model, std::optional<std::int64_t> v_ist);
 
 }  // namespace nplc::causes

@@ -24,6 +24,8 @@ class MidiVirtual final : public VirtualDrive {
     void sample() override;
     void fill(Snapshot& snapshot) const override;
     void cut(bool cut) override { drive_.cut(cut); }
+    bool is_cut() const override { return drive_.is_cut(); }
+    bool is_blocked() const override { return drive_.module().shaft_is_blocked(); }
     void spoil(const action::SpoilLine& faults) override;
     void reseed(std::uint64_t seed) override { drive_.line().reseed(seed); }
     void power(bool on) override { drive_.power(on); }

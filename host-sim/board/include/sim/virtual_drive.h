@@ -52,6 +52,9 @@ class VirtualDrive {
     virtual void fill(Snapshot& snapshot) const = 0;
 
     virtual void cut(bool cut) = 0;
+    virtual bool is_cut() const = 0;
+    /// The shaft has no room between its mechanical ends.
+    virtual bool is_blocked() const { return false; }
     virtual void spoil(const action::SpoilLine& faults) = 0;
     virtual void reseed(std::uint64_t seed) = 0;
     virtual void power(bool on) = 0;

@@ -132,6 +132,9 @@ class World final : public Stage, private gateway::Observer {
     void set_input(unsigned index, bool level) override;
     void toggle_input(unsigned index) override;
     void cut_line(bool cut) override;
+    bool line_is_cut() const { return drive_ ? drive_->is_cut() : line_.is_cut(); }
+    /// True between rigid mechanical ends that leave it no room.
+    bool shaft_is_blocked() const;
     void spoil_line(const action::SpoilLine& faults) override;
     void seed(std::uint64_t value) override;
     void fail_motor() override { motor_fails_ = true; }

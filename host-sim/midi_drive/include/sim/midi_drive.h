@@ -75,6 +75,7 @@ class MidiDrive {
     Time next_event(Time now) const;
 
     void cut(bool cut);
+    bool is_cut() const { return cut_; }
     /// What the gateway sends is lost, what it would receive is.
     void cut(bool to_drive, bool from_drive);
     /// What the drive sends comes later by `late`, and then at the next multiple of `together`, as from a USB

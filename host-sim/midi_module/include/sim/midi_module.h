@@ -81,6 +81,7 @@ class MidiModule {
     /// A mechanical end, in increments of shaft(); one that the shaft is beyond holds it in place.
     void stop_shaft(bool above, std::int64_t at) { motion_.shaft().stop(above, at); }
     void free_shaft() { motion_.shaft().free(); }
+    bool shaft_is_blocked() const { return motion_.shaft().is_blocked(); }
     /// A switch at an input: active on one side of a position, in increments of shaft().
     void connect(Input input, bool on_above, std::int64_t at);
     /// A constant load torque in steps of TORQUE, positive clockwise. Below the motor's torque it is only

@@ -25,10 +25,11 @@ namespace nplc::faces {
 /// more.
 class AxisModel {
   public:
-    static constexpr base::Milliseconds kPeriod{10};           ///< image interval while requested
-    static constexpr base::Milliseconds kInterest{1'000};      ///< validity of a face's request
-    static constexpr base::Milliseconds kWhyInterest{60'000};  ///< validity of a request for causes
-    static constexpr base::Milliseconds kOld{1'000};           ///< an older image counts as stale data
+    static constexpr base::Milliseconds kPeriod{10};             ///< image interval while requested
+    static constexpr base::Milliseconds kInterest{1'000};        ///< validity of a face's request
+    static constexpr base::Milliseconds kWhyInterest{60'000};    ///< validity of a request for causes
+    static constexpr base::Milliseconds kMotorInterest{60'000};  ///< validity of a request for the motor
+    static constexpr base::Milliseconds kOld{1'000};             ///< an older image counts as stale data
     static constexpr std::size_t kMostBells = 8;
 
     explicit AxisModel(std::string name, Scaling scaling = {})
@@ -50,6 +51,9 @@ class AxisModel {
     std::uint64_t image_number() const { return board_.number(); }
     /// Requests images for kInterest; wakes the loop if there was no request before.
     void want(base::Instant now);
+    /// Keeps the motor's values up to date for kMotorInterest, also between images: for clients that ask at
+    /// intervals of seconds. A request for causes does the same.
+    void want_motor(base::Instant now);
 
     std::shared_ptr<const AxisTable> table() const { return table_.get(); }
     /// Settable values, their ranges, and the recipes. An image right after an upload may belong to another
@@ -76,6 +80,7 @@ class AxisModel {
     Shelf<SetPointBook>& set_point_shelf() { return set_points_; }
     Shelf<Survey>& survey_shelf() { return survey_; }
     bool wants_survey(base::Instant now) const;
+    bool wants_motor(base::Instant now) const;
     bool is_wanted(base::Instant now) const;
     void strike_bells();
     /// To be called before the desk is checked.
@@ -91,6 +96,7 @@ class AxisModel {
     Shelf<Survey> survey_;
     WhyKeeper why_;
     std::atomic<std::int64_t> why_asked_{INT64_MIN / 2};
+    std::atomic<std::int64_t> motor_asked_{INT64_MIN / 2};
     std::atomic<std::int64_t> wanted_{INT64_MIN / 2};
     std::array<Bell*, kMostBells> bells_{};
     Bell* loop_ = nullptr;

@@ -65,6 +65,7 @@ struct AxisImage {
     std::array<std::uint32_t, 256> own{};
     std::array<MotorValue, kMotorItems> motor{};
     bool moves = false;                       ///< its position changed between the last two reads
+    base::Instant moving_since{};             ///< the read of the position that showed it first
     std::optional<causes::MidiState> midi{};  ///< for a MIDI drive
     std::uint16_t why =
         0;  ///< AxisModel::image_with_why(): the cause's number (causes/codes.h); 0: not known

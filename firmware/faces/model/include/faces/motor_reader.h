@@ -46,7 +46,11 @@ class MotorReader {
     }
 
   private:
+    /// Items beside position and velocity.
+    static constexpr unsigned kHurried = kMotorItems - 2;
+
     State take(gateway::Controller& controller, base::Instant now);
+    MotorItem next_other(registers::Model model);
     void choose_item(const AxisImage& image);
     void choose_surveyed();
     void note_surveyed(base::Instant wall);
@@ -68,6 +72,8 @@ class MotorReader {
     Survey survey_;
     bool survey_ended_ = false;
     unsigned turn_ = 0;
+    unsigned other_ = static_cast<unsigned>(MotorItem::error_word);  ///< of the items read in turns
+    unsigned hurried_ = kHurried;                                    ///< remaining reads of the first pass
     base::Instant due_{};
 };
 

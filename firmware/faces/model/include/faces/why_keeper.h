@@ -37,6 +37,8 @@ class WhyKeeper {
         std::uint32_t status = 0;
         std::uint32_t reason = 0;
         bool moves = false;
+        bool stands = false;
+        std::optional<std::int32_t> velocity{};
         std::optional<causes::MidiState> midi{};
         bool operator==(const Key&) const = default;
     };

@@ -115,10 +115,10 @@ function linkChanged(state: LinkState): void {
   repaint();
 }
 
-function bar(text: string): void {
-  const element = byId("link-bar");
-  element.hidden = text === "";
-  setText(element, text);
+function bar(text: string, tellsOfStop = false): void {
+  byId("link-bar").hidden = text === "";
+  setText(byId("link-text"), text);
+  byId("do-give-up").hidden = !tellsOfStop;
 }
 
 /** However much comes, the screen is written once a frame. */
@@ -138,7 +138,7 @@ function paintLink(age: number): void {
   else if (wire.state === "lost") bar("The connection is lost. What you see is old; the page connects again by itself.");
   else if (wire.state === "connecting") bar("Connecting…");
   else if (current && current.imageAt > 0 && age > kOld) bar(`No news of the axis for ${duration(age)}: what you see is old.`);
-  else if (current?.stopUnconfirmed) bar("The motor was told to stop and has not confirmed it: it may be moving. Look at its supply and its line.");
+  else if (current?.stopUnconfirmed) bar("The motor was told to stop and has not confirmed it: it may be moving. Look at its supply and its line.", true);
   else bar("");
 }
 

@@ -35,6 +35,7 @@ export class Operation {
     // In the dialogs too, which cover the page.
     for (const button of document.querySelectorAll<HTMLElement>("[data-stop]")) button.addEventListener("click", () => void this.stop(button.dataset.stop!));
     for (const name of ["run", "step", "scan"]) byId(`do-${name}`).addEventListener("click", () => void this.command(name));
+    byId("do-give-up").addEventListener("click", () => this.giveUpStop());
     byId("do-reset-error").addEventListener("click", () => void this.resetError());
     setInterval(() => this.alive(), 1000);
   }
@@ -171,6 +172,13 @@ export class Operation {
     await this.ask({ do: "command", name }, name);
   }
 
+  /** The motor is not told to stop any more: only a person who looks at it can say that this is right. */
+  private giveUpStop(): void {
+    if (!this.operates) return this.notice("Giving a stop up needs operating: press Operate… first.");
+    this.notice("Once given up, the motor is not told to stop any more. Make sure that it stands, or is without power.", true, {
+      label: "Give the stop up", act: () => void this.command("give_up_stop") });
+  }
+
   /** ERR_STAT's errors are cleared by writing it; the sequence's own way is command 01h. */
   private async resetError(): Promise<void> {
     const answer = await this.ask({ do: "motor_write", register: "ERR_STAT", value: 0 }, "reset error");
@@ -202,6 +210,7 @@ export class Operation {
     enable("do-step", may && axis.hasTable && !axis.isRunning);
     enable("do-scan", may && axis.hasTable && !axis.isRunning);
     enable("do-reset-error", may);
+    enable("do-give-up", may);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
     setText(byId("seat"), this.wire.state !== "open" ? "Who operates is not known" : axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
   }

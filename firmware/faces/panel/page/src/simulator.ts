@@ -33,19 +33,11 @@ export class Simulator {
   }
 
   private async block(): Promise<void> {
-    const done = this.blocked ? await this.act("motor stop none") : await this.hold();
-    if (done) this.blocked = !this.blocked;
-    this.show();
-  }
-
-  /** A stop on both sides of where it is holds the shaft. */
-  private async hold(): Promise<boolean> {
-    return this.act("motor blocked");
+    await this.act(this.blocked ? "motor stop none" : "motor blocked");
   }
 
   private async cutLine(): Promise<void> {
-    if (await this.act(this.cut ? "line restored" : "line cut")) this.cut = !this.cut;
-    this.show();
+    await this.act(this.cut ? "line restored" : "line cut");
   }
 
   private async save(): Promise<void> {
@@ -62,6 +54,9 @@ export class Simulator {
 
   take(m: Record<string, unknown>): void {
     this.paused = m.paused as boolean;
+    this.blocked = m.blocked as boolean;
+    this.cut = m.cut as boolean;
+    this.show();
     setText(byId("sim-time"), clock(m.ms as number));
     setText(byId("sim-pause"), this.paused ? "Go on" : "Pause time");
     setAttribute(byId("sim-pause"), "aria-pressed", String(this.paused));

@@ -1,0 +1,76 @@
+#include "axis_feed.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace nplc::panel {
+namespace {
+
+using faces::MotorItem;
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr base::Instant kBegin{100s};
+
+struct Names final : SymbolShelf {
+    Found find(std::size_t, std::uint32_t) override { return {"/home/somebody/plant/feeder.seq", "{}"}; }
+    std::string keep(std::size_t, std::uint32_t, std::string_view) override { return {}; }
+};
+
+struct Axis {
+    Axis() { leave(kBegin); }
+    /// The loop leaves an image; the panel looks at it.
+    void leave(base::Instant now) {
+        image.taken = now;
+        ++image.number;
+        model.board().put(image);
+        feed.look(now);
+    }
+    void read(MotorItem item, std::int32_t value, base::Instant now) {
+        image.motor[static_cast<std::size_t>(item)] = {true, value, now};
+    }
+    /// The motor's values of the message after one that told `before`.
+    Json values(const faces::AxisImage* before, base::Instant now) const {
+        const std::string text = feed.image_text(before, true, now);
+        return text.empty() ? Json() : Json::parse(text).value("m", Json());
+    }
+
+    faces::AxisImage image;
+    faces::AxisModel model{"x"};
+    Names names;
+    AxisFeed feed{{.model = &model}, 0, &names};
+};
+
+TEST(AxisFeed, AValueThatIsNotReadAgainIsToldOnceMoreAsNotGood) {
+    Axis axis;
+    axis.read(MotorItem::position, 4'711, kBegin);
+    axis.read(MotorItem::error_word, 0, kBegin);
+    axis.leave(kBegin);
+    EXPECT_EQ(axis.values(nullptr, kBegin)["P_IST"], Json::parse("[4711,0,true]"));
+    faces::AxisImage told = axis.feed.image();
+    const auto next = [&](base::Microseconds after) {
+        axis.leave(kBegin + after);
+        Json values = axis.values(&told, kBegin + after);
+        told = axis.feed.image();
+        return values;
+    };
+    EXPECT_TRUE(next(1'900ms).is_null());
+    EXPECT_EQ(next(2'010ms), Json::parse(R"({"P_IST":[4711,2010,false]})"));
+    EXPECT_TRUE(next(2'100ms).is_null()) << "once";
+    EXPECT_TRUE(next(19'000ms).is_null()) << "read in turns of 8 s";
+    EXPECT_EQ(next(20'010ms), Json::parse(R"({"ERR_STAT":[0,20010,false]})"));
+    axis.read(MotorItem::position, 4'711, kBegin + 21s);
+    EXPECT_EQ(next(21s), Json::parse(R"({"P_IST":[4711,0,true]})"));
+}
+
+TEST(AxisFeed, TellsTheNameOfTheProgramsFile) {
+    Axis axis;
+    axis.model.table_shelf().put(std::make_shared<const faces::AxisTable>(
+        faces::AxisTable{.crc = 1, .bytes = std::vector<std::uint8_t>(8, 0xFF)}));
+    axis.leave(kBegin + 10ms);
+    EXPECT_EQ(Json::parse(axis.feed.program_text())["file"], "feeder.seq");
+}
+
+}  // namespace
+}  // namespace nplc::panel
