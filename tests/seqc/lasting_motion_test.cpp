@@ -101,6 +101,51 @@ TEST(LastingMotion, ASpeedTakesUpAStoppedMove) {
     EXPECT_EQ(told_codes(at_place("INIT(Fast);", "INIT(Fast); V_SOLL := 600 rpm")), "");
 }
 
+// It stands at Far where There leads to Lift, and on its way where the guard does.
+TEST(LastingMotion, AMoveThatIsNeededOnOneWayIsTakenOutOnNone) {
+    const auto program = [](const std::string& guard) {
+        return "PROGRAM P\nMOTOR MAC140;\n"
+               "VAR_MOTOR Near AT P1 := 1 rev; Far AT P2 := 9 rev; Fast AT V1 := 600 rpm; END_VAR\n"
+               "ON ERROR NEXT := Fault;" +
+               guard +
+               "\nPOWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+               "STEP Idle: IF R_TRIG(IN0) THEN NEXT := Go; END_IF END_STEP\n"
+               "STEP Go: ENTRY POSITION(Near); IF INPOS WITHIN T#9s THEN NEXT := Out; ELSE NEXT := Fault; "
+               "END_IF END_STEP\n"
+               "STEP Out: ENTRY POSITION(Far); IF INPOS WITHIN T#9s THEN NEXT := There; ELSE NEXT := Fault; "
+               "END_IF END_STEP\n"
+               "STEP There: IF R_TRIG(IN3) THEN NEXT := Lift; END_IF END_STEP\n"
+               "STEP Lift: ENTRY POSITION(Far); IF INPOS AND R_TRIG(IN4) THEN NEXT := Idle; END_IF "
+               "END_STEP\n" +
+               kInitFault;
+    };
+    EXPECT_EQ(told_codes(program("")), "W040");
+    EXPECT_EQ(told_codes(program(" ON NOT IN2 IN Go NEXT := Lift;")).find("W040"), std::string::npos);
+}
+
+TEST(LastingMotion, ASelectionThatChangesTheModeStartsTowardsAnOldTarget) {
+    const auto program = [](const std::string& first, const std::string& then) {
+        return "PROGRAM P\nMOTOR MAC140;\n"
+               "VAR_MOTOR Far AT P1 := 9 rev; Fast AT V1 := 600 rpm; Back AT V2 := -600 rpm; "
+               "Soft AT A1 := 10000 rpm/s; END_VAR\n"
+               "ON ERROR NEXT := Fault;\nPOWER_UP INIT(Fast, Soft); NEXT := Idle; END_POWER_UP\n"
+               "STEP Idle: IF R_TRIG(IN0) THEN NEXT := Run; END_IF END_STEP\n"
+               "STEP Run: ENTRY " +
+               first + "; IF R_TRIG(IN2) THEN " + then +
+               "; NEXT := On; END_IF END_STEP\n"
+               "STEP On: IF R_TRIG(IN3) THEN INIT(Fast); NEXT := Idle; END_IF END_STEP\n" +
+               kInitFault;
+    };
+    const auto is_refused = [&](const std::string& first, const std::string& then) {
+        return told_codes(program(first, then)).find("E052") != std::string::npos;
+    };
+    EXPECT_TRUE(is_refused("VELOCITY(Fast)", "POSITION(Back)"));
+    EXPECT_TRUE(is_refused("POSITION(Far)", "VELOCITY(Soft)"));
+    EXPECT_FALSE(is_refused("VELOCITY(Fast)", "VELOCITY(Back)"));
+    EXPECT_FALSE(is_refused("VELOCITY(Fast)", "POSITION(Far, Fast)"));
+    EXPECT_FALSE(is_refused("POSITION(Far)", "POSITION(Fast)"));
+}
+
 /// What a step of which nothing leads on may say of itself.
 TEST(Allowed, AStepThatIsNeverLeft) {
     const auto program = [](const std::string& says) {
