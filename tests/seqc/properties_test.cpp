@@ -85,6 +85,7 @@ TEST(Property, TimerAndCounterAreTrueAtZero) {
 TEST(Property, EveryFormIsRead) {
     EXPECT_EQ(only("PROPERTY P: NEVER IN0;").form, Form::never);
     EXPECT_EQ(only("PROPERTY P: ALWAYS IN0;").form, Form::always);
+    EXPECT_EQ(only("PROPERTY On: NEVER IN0;").name, "On") << "a word of the language";
     EXPECT_EQ(only("PROPERTY P: ALWAYS POSSIBLE IN0;").form, Form::always_possible);
     EXPECT_EQ(only("PROPERTY P: step = Push IS REACHABLE;").form, Form::reachable);
     const Property property = only("property P : whenever IN0 then IN1 within 1.5 s ; // comment");

@@ -9,6 +9,7 @@
 namespace nplc::seqc {
 
 ast::Program Parser::parse_claims() {
+    in_claims_file_ = true;
     ast::Program program;
     while (token().kind != TokenKind::end && !report_.full_of_errors()) {
         if (at("PROPERTY")) {
@@ -29,7 +30,11 @@ void Parser::parse_property(ast::Program& program) {
     const Token first = token();
     ++at_;
     claim_ = {};
-    if (!expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
+    if (in_claims_file_ && token().kind == TokenKind::identifier && is_symbol_at(1, ":")) {
+        claim_.name = name_of(token());
+        note_use(ast::Role::property, token().span, true);
+        ++at_;
+    } else if (!expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
         if (is_symbol_at(1, ":")) ++at_;  // a keyword as name: the claim follows all the same
         return recover_claim();
     }

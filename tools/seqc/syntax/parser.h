@@ -265,6 +265,7 @@ class Parser {
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
+    bool in_claims_file_ = false;    ///< words of the language can be names of properties there
     ast::Claim claim_;               ///< the property being parsed
     std::size_t claim_begin_ = 0;    ///< its first token behind PROPERTY Name:
     bool before_condition_ = false;  ///< another condition follows: its ( is no call
