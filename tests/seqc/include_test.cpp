@@ -47,7 +47,8 @@ TEST_F(Include, PropertiesOfBothFilesAreProved) {
     write("all.seqi", "PROPERTY Lit: NEVER STEP = Work AND NOT Lamp;\n" + std::string(kWiring) + kSteps);
     write("p.seq", including("INCLUDE 'all.seqi';\nPROPERTY Dark: NEVER Lamp AND STEP = Idle;"));
     EXPECT_EQ(run("verify p.seq"), 0) << read("err");
-    EXPECT_NE(read("out").find("proved    Lit: NEVER STEP = Work AND NOT Lamp"), std::string::npos) << read("out");
+    EXPECT_NE(read("out").find("proved    Lit: NEVER STEP = Work AND NOT Lamp"), std::string::npos)
+        << read("out");
     EXPECT_NE(read("out").find("proved    Dark: NEVER Lamp AND STEP = Idle"), std::string::npos)
         << read("out");
 }
