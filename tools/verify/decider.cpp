@@ -43,7 +43,7 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
     if (options.assume == Assume::driver) stable_ms_.fill(options.debounce_ms);
     for (const Assumption& assumption : options.assumptions)
         stable_ms_[assumption.input] = std::max(stable_ms_[assumption.input], assumption.stable_ms);
-    // What surely.h reckons with holds for 3 ms of debounce, and for each time of the driver's.
+    // surely.h counts on 3 ms of debounce, or on the driver's debounce time.
     const std::uint32_t each_ms = options.assume == Assume::driver ? options.debounce_ms : 3;
     for (std::size_t input = 0; input < stable_ms_.size(); ++input)
         held_ |= static_cast<std::uint8_t>(stable_ms_[input] > each_ms ? 1U << input : 0U);

@@ -44,7 +44,8 @@ std::string AxisStore::open(const std::string& folder) {
 void AxisStore::check_owner(const std::string& path) {
     using enum AutostartPermission;
     owner_.emplace(path, axis_);
-    const bool has_run_here = marker_->found() >= Found::ended && marker_->found() != Found::damaged;
+    const Found found = marker_->found();
+    const bool has_run_here = found == Found::ended || found == Found::running || found == Found::crashed;
     switch (owner_->found()) {
         case StoreOwner::Found::whole:
             permission_ = owner_->permission();

@@ -1,4 +1,4 @@
-// Moves that reckon with a P_SOLL or P_FNC which a run at a speed left behind.
+// Moves that start from a P_SOLL or P_FNC that no longer is where the axis stands.
 #include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/guards.h"
@@ -102,7 +102,7 @@ class AwayWalk {
                 return;
         }
         state.soll_is_0 = false;
-        state.ran = {};  // whoever writes a place reckons by himself
+        state.ran = {};  // a written target is taken as meant
     }
 
     static void apply_number(AwayState& state, Number number, Span span) {
