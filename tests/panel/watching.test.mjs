@@ -206,6 +206,30 @@ test("a program that is halted: data older than a second are shown as old", () =
     await page.context().close();
   }));
 
+test("what waited while the program was halted is not carried out, a stop is", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const client = new Client(machine.url);
+    const { axes } = await client.until((m) => m.t === "hello");
+    const axis = axes[0].name;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "seat", axis });
+    await client.ask({ do: "command", axis, name: "stop" });
+    machine.child.kill("SIGSTOP");
+    const late = client.ask({ do: "command", axis, name: "run" });
+    await new Promise((done) => setTimeout(done, 2000));
+    machine.child.kill("SIGCONT");
+    assert.equal((await late).result, "refused");
+    assert.equal((await late).code, 19);
+    await new Promise((done) => setTimeout(done, 300));
+    assert.equal((await client.ask({ do: "command", axis, name: "run" })).result, "done");
+    machine.child.kill("SIGSTOP");
+    const stop = client.ask({ do: "command", axis, name: "stop" });
+    await new Promise((done) => setTimeout(done, 2000));
+    machine.child.kill("SIGCONT");
+    assert.equal((await stop).result, "done");
+    client.close();
+  }));
+
 test("a tab that was suspended catches up", () =>
   withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
     const page = await openPage(machine.url);

@@ -40,6 +40,11 @@ std::string client_of(const gateway::EventLog::Entry& entry, const faces::Sitter
     return by_person == (holder->side == faces::Side::person) ? holder->name : std::string();
 }
 
+bool is_of_store(const gateway::EventLog::Entry& entry) {
+    return entry.event == static_cast<std::uint8_t>(Event::store_damaged) ||
+           entry.event == static_cast<std::uint8_t>(gateway::SafeReason::bad_settings);
+}
+
 }  // namespace
 
 void AxisReporter::start(base::Instant now) {
@@ -57,6 +62,7 @@ void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, con
 
 void AxisReporter::report_events(gateway::Controller& controller, const faces::Sitter* holder) {
     events_.look(controller.sequence().log(), [&](const gateway::EventLog::Entry& entry) {
+        if (!has_store_ && is_of_store(entry)) return;
         LogMessage message = in_words(entry);
         if (const std::string changes = changes_of(entry, controller); !changes.empty())
             message.text += ": " + changes;

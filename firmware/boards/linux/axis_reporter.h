@@ -19,6 +19,8 @@ class AxisReporter {
 
     /// To be called with a new log.
     void start(base::Instant now);
+    /// Without a store what it holds is not damaged, but out of reach, which is told elsewhere.
+    void set_store(bool is_there) { has_store_ = is_there; }
     /// `holder`: the present operator; null: none.
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                 base::Instant now);
@@ -33,6 +35,7 @@ class AxisReporter {
     base::Instant tell_silence_at_ = base::kNever;
     faces::NewEvents events_;
     motor::Link told_link_ = motor::Link::down;
+    bool has_store_ = true;
 };
 
 }  // namespace nplc::boards
