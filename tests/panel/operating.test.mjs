@@ -203,8 +203,28 @@ test("why, the trend's CSV, and reset error", () =>
     await page.click("#do-stop");
     await state(page, "stopped");
     await hasText(page, "#why", "gateway_safe (11)"); // as every other face tells it
+    await hasText(page, "#why", "“Run” starts it.");
+    assert.doesNotMatch(await textOf(page, "#why"), /nanoctl/);
     await page.click("#do-reset-error");
-    await hasText(page, "#notices", "ERR_STAT was cleared");
+    await hasText(page, "#notices", "The motor's errors were cleared");
+  }));
+
+test("reset error keeps the settings in ERR_STAT: relative positions stay relative", () =>
+  withPages(1, async (machine, page) => {
+    const kRelative = 0x200; // RELPOSPSOLL (001 §3.2.35)
+    const client = new Client(machine.url);
+    await client.opened;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "command", name: "stop" });
+    await client.ask({ do: "seat" });
+    assert.equal((await client.ask({ do: "motor_write", register: "ERR_STAT", value: kRelative })).result, "done");
+    await client.ask({ do: "leave" });
+    await operate(page, machine.token);
+    await page.click("#do-reset-error");
+    await hasText(page, "#notices", "The motor's errors were cleared");
+    const now = await client.ask({ do: "motor_read", register: "ERR_STAT" });
+    assert.equal(now.value & kRelative, kRelative);
+    client.close();
   }));
 
 test("the simulated machine: inputs, line, shaft, time, and a scenario that does the same", () =>

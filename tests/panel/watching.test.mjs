@@ -119,6 +119,18 @@ test("60 steps: laid out without boxes that overlap, found by name, followed", a
         return box.left >= area.left && box.right <= area.right && box.top >= area.top && box.bottom <= area.bottom;
       });
     }
+    await page.click("#zoom-fit");
+    const outside = () => page.evaluate(() => {
+      const area = document.getElementById("drawing").getBoundingClientRect();
+      return [...document.querySelectorAll(".box")].map((box) => box.getBoundingClientRect())
+        .filter((b) => b.left < area.left || b.right > area.right || b.top < area.top || b.bottom > area.bottom).length;
+    });
+    assert.equal(await outside(), 0, "all of it is seen");
+    await page.setViewportSize({ width: 900, height: 900 });
+    await page.waitForFunction((width) => document.getElementById("drawing").clientWidth < width, 700);
+    await page.waitForTimeout(300); // longer than a frame: the size is told after it
+    assert.equal(await outside(), 0, "in another size too");
+    await page.setViewportSize({ width: 1440, height: 1000 });
     await page.fill("#search", "S42");
     assert.equal(await textOf(page, "#search-count"), "1 found");
     await page.press("#search", "Enter");
@@ -178,6 +190,25 @@ test("the motor's values are shown with their age once its line is cut, and leav
     assert.match(readFileSync(await download.path(), "utf8").trimEnd().split("\n").at(-1), /,,,$/);
     await page.click("#sim-cut");
     await page.waitForFunction(() => !document.getElementById("trend-now").textContent.includes("old"));
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
+test("the trend has an axis for each of position, velocity and current, and as many values of each", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    assert.equal(await page.locator("#trend .u-axis").count(), 4);
+    await hasText(page, "#trend-now", "%");
+    const counts = async () => {
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click("#trend-tools >> text=CSV")]);
+      const lines = readFileSync(await download.path(), "utf8").trimEnd().split("\n").slice(1).map((line) => line.split(","));
+      return [2, 3, 4].map((column) => lines.filter((line) => line[column] !== "").length);
+    };
+    const before = await counts();
+    await page.waitForTimeout(6_000); // reads to count
+    const [positions, velocities, currents] = (await counts()).map((count, i) => count - before[i]);
+    assert.ok(currents >= 6 && Math.abs(currents - positions) <= 3 && Math.abs(velocities - positions) <= 3, `${positions} positions, ${velocities} velocities, ${currents} currents`);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }));

@@ -204,7 +204,7 @@ function paintEvents(axis: Axis): void {
 }
 
 function paintWhy(axis: Axis): void {
-  const findings = whyNot(axis, waits);
+  const findings = whyNot(axis, waits, operation.operates);
   const text = JSON.stringify(findings);
   if (text === shownWhy) return;
   shownWhy = text;

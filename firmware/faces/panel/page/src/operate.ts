@@ -179,10 +179,10 @@ export class Operation {
       label: "Give the stop up", act: () => void this.command("give_up_stop") });
   }
 
-  /** ERR_STAT's errors are cleared by writing it; the sequence's own way is command 01h. */
+  /** In the motor; the sequence's own way is command 01h. */
   private async resetError(): Promise<void> {
-    const answer = await this.ask({ do: "motor_write", register: "ERR_STAT", value: 0 }, "reset error");
-    if (answer.result === "done") this.notice("ERR_STAT was cleared in the motor.");
+    const answer = await this.ask({ do: "command", name: "reset_error" }, "reset error");
+    if (answer.result === "done") this.notice("The motor's errors were cleared; one whose cause is still there comes back.");
   }
 
   async setBreak(step: number, on: boolean): Promise<void> {

@@ -1,4 +1,5 @@
 // Why does it not move? What the gateway finds, as every other face tells it, and what only the page knows beside it.
+import { inPanel } from "./remedies";
 import type { Axis } from "./state";
 import type { Waits } from "./waits";
 
@@ -18,12 +19,11 @@ export interface Finding {
   remedy: string;
 }
 
-const findingOf = (cause: Cause): Finding =>
-  ({ text: cause.text, basis: `${[...cause.sources, cause.code].join(", ")} (${cause.number})`, remedy: cause.remedy });
-
-/** What to mend first in front. */
-export function whyNot(axis: Axis, waits: Waits): Finding[] {
+/** What to mend first in front. `operates`: the buttons that act are on the page. */
+export function whyNot(axis: Axis, waits: Waits, operates: boolean): Finding[] {
   const causes = axis.why ?? [];
+  const findingOf = (cause: Cause): Finding =>
+    ({ text: cause.text, basis: `${[...cause.sources, cause.code].join(", ")} (${cause.number})`, remedy: inPanel(cause.remedy, axis.isHeld, operates) });
   const isFirst = (cause: Cause): boolean => cause.severity !== "tells" || cause.code === "moves";
   const list = causes.filter(isFirst).map(findingOf);
   const add = (text: string, basis: string, remedy: string): void => void list.push({ text, basis, remedy });
