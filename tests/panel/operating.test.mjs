@@ -91,8 +91,32 @@ test("a stop that the motor does not confirm says that it may be moving", () =>
     await page.click("#do-stop");
     await hasText(page, "#link-bar", "has not confirmed it: it may be moving");
     await state(page, "stop not confirmed: the motor may be moving");
+    await hasText(page, "#why li:first-child", "It may be moving");
+    assert.doesNotMatch(await textOf(page, "#why"), /“Run” starts/);
+    const [words, ground] = await page.$eval("#do-give-up", (e) => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]);
+    assert.notEqual(words, ground, "the button can be read");
+    await hasText(page, "#notices", "the machine may still be running");
+    for (let i = 0; i < 6; ++i) { // other notices do not push it out
+      await page.fill("#sim-action", `motor lod ${i}`);
+      await page.click("#sim-form button");
+      await hasText(page, "#notices", `motor lod ${i}:`);
+    }
+    await hasText(page, "#notices", "the machine may still be running");
     await page.click("#sim-cut");
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
+    assert.doesNotMatch(await textOf(page, "#notices"), /may still be running/, "it goes with its reason");
+  }));
+
+test("a stop while the simulated time is paused says why nothing comes of it", () =>
+  withPages(2, async (machine, page, watcher) => {
+    await operate(page, machine.token);
+    await page.click("#sim-pause");
+    await hasText(page, "#sim-pause", "Go on");
+    await watcher.click("#do-stop");
+    await hasText(watcher, "#link-bar", "The simulated time is paused");
+    await page.click("#sim-pause");
+    await state(watcher, "stopped: stop command");
+    await watcher.waitForFunction(() => document.querySelector("#link-bar").hidden);
   }));
 
 test("a stop that the motor does not confirm is given up after a question", () =>

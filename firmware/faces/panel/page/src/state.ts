@@ -136,6 +136,7 @@ export class Axis {
   takeProgram(m: Record<string, unknown>): void {
     const bytes = Uint8Array.from(atob(m.table as string), (c) => c.charCodeAt(0));
     const terms = decodeTable(bytes);
+    if (this.program && this.program.crc !== m.crc) this.path = []; // its steps are others
     this.program = {
       file: (m.file as string) ?? "", crc: m.crc as number, bytes, proof: (m.proof as string) ?? "",
       since: (m.since as number) ?? -1, symbols: (m.symbols as Symbols | null) ?? {}, hasSymbols: m.symbols !== null,
@@ -145,6 +146,7 @@ export class Axis {
 
   takeImage(m: Record<string, unknown>, now: number): void {
     const registers = m.r as Record<string, number> | undefined;
+    if (registers?.UPTIME !== undefined && registers.UPTIME < (this.r.UPTIME ?? 0)) this.path = []; // it began anew
     if (m.full) this.r = {};
     Object.assign(this.r, registers);
     this.imageAt = now - (m.age as number);

@@ -85,7 +85,7 @@ export class Upload {
   }
 
   private open(): void {
-    if (!this.operation.operates) return this.operation.notice("Switch to operating first.");
+    if (!this.operation.operates) return void this.operation.notice("Switch to operating first.");
     this.chosen = null;
     this.files.value = "";
     this.list.replaceChildren();
