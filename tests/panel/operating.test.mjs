@@ -216,6 +216,71 @@ test("an upload is compared and asked about, then stored, made active, and its n
     assert.deepEqual(readFileSync(await download.path()), readFileSync(table));
   }));
 
+test("files that are no table, an empty one, two, foreign names and another motor's program are told before anything is sent", () =>
+  withPages(1, async (machine, page) => {
+    const build = (name) => {
+      execFileSync(join(programs, "seqc"), ["build", join(examples, `${name}.seq`), "-o", path(`${name}.bin`)]);
+      return [path(`${name}.bin`), path(`${name}.sym`)];
+    };
+    const [table, names] = build("pick_and_place");
+    const others = build("cut_to_length");
+    const midi = build("midi_pick_and_place");
+    const bytes = readFileSync(table);
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    const told = async (files, text) => {
+      await page.setInputFiles("#upload-files", files);
+      await hasText(page, "#upload-text", text);
+      assert.equal(await page.locator("#upload-activate").isDisabled(), true, text);
+    };
+    await told([file("bin", Buffer.alloc(8, 255))], "is an empty table");
+    await told([file("bin", Buffer.concat([bytes, Buffer.alloc(5)]))], "it is no table, or has a certificate");
+    await told([table, others[0]], "choose one table and its names, not more");
+    await told([table, others[1]], "the names are those of another table");
+    await told([table, file("sym", "{ hello")], "holds no names of a program");
+    await told([table, file("sym", "[1, 2]")], "holds no names of a program");
+    await page.setInputFiles("#upload-files", midi);
+    await hasText(page, "#upload-text", "It was compiled for a MAC34, and this axis has a MAC140");
+    await page.setInputFiles("#upload-files", [table, names]);
+    await hasText(page, "#upload-text", "is the table that is active already");
+    assert.doesNotMatch(await textOf(page, "#upload-text"), /compiled for/);
+  }));
+
+test("names of another form than seqc's, from any client, leave the page at work", () =>
+  withPages(1, async (machine, page) => {
+    const table = path("strange.bin");
+    execFileSync(join(programs, "seqc"), ["build", join(examples, "cut_to_length.seq"), "-o", table]);
+    const client = new Client(machine.url);
+    await client.opened;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "command", name: "stop" });
+    await client.ask({ do: "seat" });
+    const crc = JSON.parse(readFileSync(path("strange.sym"), "utf8")).table;
+    const symbols = { table: crc, program: 7, steps: [null, { number: 1, name: 5 }, 3], inputs: { a: 1 }, outputs: [1, 2], scale: "mm", registers: {}, motor: [] };
+    const answer = await client.ask({ do: "upload", table: readFileSync(table).toString("base64"), symbols, activate: true });
+    assert.equal(answer.result, "done", answer.text);
+    await hasText(page, "#loaded", crc.crc32);
+    await hasText(page, "#waits-title", "Active step: Step 0");
+    await client.ask({ do: "command", name: "run" });
+    await state(page, "running");
+    client.close();
+  }));
+
+test("an upload with another SCALE: the page shows it, and says what the other faces keep to", () =>
+  withPages(1, async (machine, page) => {
+    assert.doesNotMatch(await textOf(page, "#loaded"), /Modbus/);
+    const source = file("seq", readFileSync(pick, "utf8").replace(/SCALE [^;]*;/, "SCALE 1 rev = 360 deg;").replaceAll(/([\d.]+) mm/g, "$1 deg"));
+    const table = path("degrees.bin");
+    execFileSync(join(programs, "seqc"), ["build", source, "-o", table]);
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    await page.setInputFiles("#upload-files", [table, path("degrees.sym")]);
+    await page.click("#upload-activate");
+    await hasText(page, "#loaded", "Modbus, MQTT and metrics show positions at 5 mm a revolution");
+    await hasText(page, "#trend-now", "deg");
+    assert.match(machine.text, /the uploaded program's SCALE is 360 deg a revolution.*Modbus, MQTT and metrics keep to 5 mm a revolution/s);
+  }));
+
 test("why, the trend's CSV, and reset error", () =>
   withPages(1, async (machine, page) => {
     await hasText(page, "#why", "The sequence waits in Idle, for Travel: Start");

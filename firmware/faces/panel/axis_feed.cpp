@@ -307,6 +307,8 @@ std::string AxisFeed::info_text() const {
                 {"motor", motor},
                 {"counts_per_rev", scale.counts_per_rev},
                 {"samples_per_second", scale.samples_per_second},
+                {"unit", model_.scaling().unit},
+                {"per_revolution", model_.scaling().per_revolution},
                 {"error_bits", error_bits(model)},
                 {"modes", modes_of(model)}}
         .dump();

@@ -180,6 +180,7 @@ function paintProgram(axis: Axis, state: string): void {
     if (active) parts.push(`active since ${clock(active.ms)} of uptime${dateOf(axis, active.ms)}`);
     else if (axis.events[0]?.n === 1) parts.push(`active since the start${dateOf(axis, 0)}`);
     if (axis.status(13)) parts.push("another table is stored");
+    if (axis.otherScale()) parts.push(`Modbus, MQTT and metrics show positions at ${axis.otherScale()}`);
   }
   setText(byId("loaded"), parts.filter(Boolean).join(" · "));
 }
