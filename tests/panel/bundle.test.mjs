@@ -11,6 +11,21 @@ import { root } from "./machine.mjs";
 const source = join(root, "firmware", "faces", "panel");
 const folder = process.env.PAGE; // with the packages of the lock file
 
+/** A part of the page by itself. */
+async function part(name) {
+  const made = join(mkdtempSync(join(tmpdir(), "part-")), `${name}.mjs`);
+  execFileSync(join(folder, "node_modules", ".bin", "esbuild"), [join(source, "page", "src", `${name}.ts`), "--bundle", "--format=esm", `--outfile=${made}`, "--log-level=warning"]);
+  return import(made);
+}
+
+test("the trend does not draw a tremble as high as a move", async () => {
+  const { spanOf } = await part("span");
+  const [low, high] = spanOf(41.9987, 41.999, 0.25); // a count at rest
+  assert.ok(high - low >= 0.25 && low < 41.9987 && high > 41.999);
+  assert.deepEqual(spanOf(0, 60, 0.25), [-3, 63]);
+  assert.deepEqual(spanOf(null, null, 20), [-10, 10]);
+});
+
 test("the bundle that is checked in is made from its sources", () => {
   for (const name of ["src", "build.mjs", "tsconfig.json"]) cpSync(join(source, "page", name), join(folder, name), { recursive: true });
   execFileSync(join(folder, "node_modules", ".bin", "tsc"), ["--noEmit"], { cwd: folder, stdio: "inherit" });
@@ -30,9 +45,7 @@ test("the remedies that the gateway tells name the page's own buttons instead of
     texts.push(...[...joined.matchAll(/"((?:[^"\\\n]|\\.)*`(?:nanoctl|macreg set ERR_STAT)(?:[^"\\\n]|\\.)*)"/g)].map((m) => m[1]));
   }
   assert.ok(texts.length > 15, `${texts.length} texts`);
-  const made = join(mkdtempSync(join(tmpdir(), "remedies-")), "remedies.mjs");
-  execFileSync(join(folder, "node_modules", ".bin", "esbuild"), [join(source, "page", "src", "remedies.ts"), "--bundle", "--format=esm", `--outfile=${made}`, "--log-level=warning"]);
-  const { inPanel } = await import(made);
+  const { inPanel } = await part("remedies");
   const page = ["index.html", "operate.ts"].map((name) => readFileSync(join(source, "page", "src", name), "utf8")).join();
   for (const text of [...texts, "clear it: `macreg set ERR_STAT 0x4000`, and choose the mode again"]) {
     const told = inPanel(text, false, true);

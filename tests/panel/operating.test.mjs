@@ -298,6 +298,14 @@ test("why, the trend's CSV, and reset error", () =>
     await hasText(page, "#notices", "The motor's errors were cleared");
   }));
 
+test("a cause is told once, with the remedy for a sequence that runs", () =>
+  withPages(1, async (machine, page) => {
+    await hasText(page, "#waits-title", "Fault");
+    await hasText(page, "#why", "the gateway's sequence has stopped the motor");
+    assert.equal((await textOf(page, "#why")).split("velocity_zero").length - 1, 1);
+    assert.doesNotMatch(await textOf(page, "#why"), /macreg set V_SOLL/);
+  }, { scenario: "at 1 s pulse Start 50 ms\nat 1.2 s Guard := 1\n" }));
+
 test("reset error keeps the settings in ERR_STAT: relative positions stay relative", () =>
   withPages(1, async (machine, page) => {
     const kRelative = 0x200; // RELPOSPSOLL (001 §3.2.35)

@@ -135,6 +135,9 @@ test("60 steps: laid out without boxes that overlap, found by name, followed", a
     assert.equal(await textOf(page, "#search-count"), "1 found");
     await page.press("#search", "Enter");
     await hasText(page, "#waits-title", "S42");
+    await page.click("#zoom-fit");
+    await page.press("#search", "Enter");
+    await page.waitForFunction(() => document.querySelector('.box.selected').getBoundingClientRect().width >= 70, null); // large enough to read
     await page.context().close();
   });
 });

@@ -13,6 +13,7 @@ interface View {
 
 const kPathShown = 6;
 const kLeastWidth = 220;
+const kReadable = 0.5; // px of the screen for one of the drawing
 
 export class StepDrawing {
   selected: number | null = null; // null: the active step
@@ -251,8 +252,15 @@ export class StepDrawing {
     this.fit();
     this.shows = "readable";
     const scale = this.root.clientWidth / this.view.width;
-    if (scale < 0.5) this.magnify(scale / 0.75);
+    if (scale < kReadable) this.magnify(scale / 0.75);
     if (this.lastStep >= 0) this.reveal(this.lastStep);
+  }
+
+  /** Shows it and selects it, as large as can be read. */
+  goTo(step: number): void {
+    const scale = this.root.clientWidth / this.view.width;
+    if (scale < kReadable) this.zoom(scale / 0.75);
+    this.select(step);
   }
 
   private resized(): void {

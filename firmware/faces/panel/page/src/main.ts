@@ -233,7 +233,8 @@ byId<HTMLInputElement>("search").addEventListener("input", (e) => {
   setText(byId("search-count"), text.trim() ? `${count} found` : "");
 });
 byId<HTMLInputElement>("search").addEventListener("keydown", (e) => {
-  if (e.key === "Enter" && drawing.firstFound() !== null) drawing.select(drawing.firstFound());
+  const found = drawing.firstFound();
+  if (e.key === "Enter" && found !== null) drawing.goTo(found);
 });
 document.addEventListener("visibilitychange", () => {
   if (document.hidden) return;

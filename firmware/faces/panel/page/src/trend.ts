@@ -1,6 +1,7 @@
 // Position, velocity and current of the last minutes: pause, zoom, CSV.
 import uPlot from "uplot";
 import { h, saveFile, setClass, setText } from "./dom";
+import { spanOf } from "./span";
 import type { Axis } from "./state";
 import { duration } from "./words";
 
@@ -10,7 +11,10 @@ const kOld = 1000; // ms: a value that was read before is shown with its age
 const kPause = 2; // seconds without a sample are a gap in the lines
 const kLinkUp = 3;
 const kNarrow = 560; // px
-const kLeastCurrent = 10; // %: noise is not drawn as high as the plot
+// An axis shows at least so much: what a shaft at rest trembles is not drawn as high as the plot.
+const kLeastTurns = 0.05; // revolutions
+const kLeastSpeed = 20; // rpm
+const kLeastCurrent = 20; // %
 const kFullCurrent = 1023; // VF_OUT of the peak (001 §3.2.7)
 
 type Samples = (number | null | undefined)[];
@@ -97,10 +101,11 @@ export class Trend {
       scale, ...(isNarrow ? {} : { label }), side: right ? 1 : 3, stroke: colour(name), grid: { show: scale === "position", stroke: colour("--line"), width: 1 }, ticks: { show: false },
       size: (isNarrow ? 2.6 : 3.5) * em, gap: isNarrow ? 2 : 5, labelSize: 1.1 * em, font, labelFont: font,
     });
+    const range = (least: number) => (_: uPlot, low: number | null, high: number | null) => spanOf(low, high, least);
     const told = (unit: string, digits: number) => (_: uPlot, v: number | null | undefined): string => (v === null || v === undefined ? "" : `${v.toFixed(digits)} ${unit}`);
     this.plot = new uPlot({
       ...this.size(), cursor: { drag: { x: true, y: false } }, legend: { live: true },
-      scales: { x: { time: false }, torque: { range: { min: { pad: 0.1, soft: -kLeastCurrent, mode: 1 }, max: { pad: 0.1, soft: kLeastCurrent, mode: 1 } } } },
+      scales: { x: { time: false }, position: { range: range(kLeastTurns * axis.position(axis.info.counts_per_rev).value) }, speed: { range: range(kLeastSpeed) }, torque: { range: range(kLeastCurrent) } },
       axes: [{ stroke: colour("--quiet"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font,
         values: (_, ticks) => ticks.map((t) => `${Number(t.toFixed(2))} s`) }, side("position", `position, ${unit}`, "--trend-1", false), side("speed", "velocity, rpm", "--trend-2", true),
         side("torque", "current, % of peak", "--trend-3", true)],

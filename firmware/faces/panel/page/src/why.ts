@@ -21,7 +21,7 @@ export interface Finding {
 
 /** What to mend first in front. `operates`: the buttons that act are on the page. */
 export function whyNot(axis: Axis, waits: Waits, operates: boolean): Finding[] {
-  const causes = axis.why ?? [];
+  const causes = (axis.why ?? []).filter((cause, i, all) => all.findIndex((one) => one.code === cause.code) === i); // the nearest of each
   const findingOf = (cause: Cause): Finding => {
     const remedy = inPanel(cause.remedy, axis.isHeld, operates);
     const isRefused = axis.stopUnconfirmed && /“(Run|Go on|Step)”/.test(remedy);
