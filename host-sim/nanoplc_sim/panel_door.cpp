@@ -160,9 +160,10 @@ std::string PanelDoor::keep(std::size_t, std::uint32_t crc, std::string_view tex
     symbols_.clear();  // the previous program's names are in program_, or it had none
     symbols_[crc] = std::string(text);
     if (const faces::Scaling scale = panel::scale_in(text); !panel::is_same(scale, axis_.scaling()))
-        host::complain(fmt::format("the uploaded program's SCALE is {}: the panel shows it, Modbus, MQTT and "
-                                   "metrics keep to {}; start the simulator with this program for them",
-                                   panel::in_words(scale), panel::in_words(axis_.scaling())));
+        host::complain(
+            fmt::format("the uploaded program's SCALE is {}: the panel shows it, Modbus, MQTT and "
+                        "metrics keep to {}; start the simulator with this program for them",
+                        panel::in_words(scale), panel::in_words(axis_.scaling())));
     return {};
 }
 

@@ -14,13 +14,15 @@ TEST(PanelNames, TheScaleOfAProgram) {
     EXPECT_TRUE(is_same(belt, {.unit = "mm", .per_revolution = 2.5}));
     EXPECT_FALSE(is_same(belt, {.unit = "mm", .per_revolution = 5}));
     EXPECT_FALSE(is_same(belt, {.unit = "deg", .per_revolution = 2.5}));
-    EXPECT_TRUE(is_same({.unit = "deg", .per_revolution = 360.0 / 7}, {.unit = "deg", .per_revolution = 1 / (7 / 360.0)}));
+    EXPECT_TRUE(is_same({.unit = "deg", .per_revolution = 360.0 / 7},
+                        {.unit = "deg", .per_revolution = 1 / (7 / 360.0)}));
 }
 
 TEST(PanelNames, WithoutAScaleRevolutions) {
-    for (const char* text : {"", "{", "[]", "{}", R"({"scale":null})", R"({"scale":"mm"})", R"({"scale":{"unit":"mm"}})",
-                             R"({"scale":{"revolutions":0,"length":5,"unit":"mm"}})",
-                             R"({"scale":{"revolutions":1,"length":5,"unit":7}})"})
+    for (const char* text :
+         {"", "{", "[]", "{}", R"({"scale":null})", R"({"scale":"mm"})", R"({"scale":{"unit":"mm"}})",
+          R"({"scale":{"revolutions":0,"length":5,"unit":"mm"}})",
+          R"({"scale":{"revolutions":1,"length":5,"unit":7}})"})
         EXPECT_TRUE(is_same(scale_in(text), {})) << text;
 }
 

@@ -119,9 +119,10 @@ std::string scale_note(const Config& config, std::size_t index, std::uint32_t cr
     if (!has_plant && panel::is_same(axis.scaling, {})) return {};
     const std::string names = StoredNames(config).find(index, crc).text;
     if (names.empty() || panel::is_same(panel::scale_in(names), axis.scaling)) return {};
-    return fmt::format("axis[{}].scale: is {}, the SCALE of its program {}: Modbus, MQTT and metrics show "
-                       "positions in the first, the panel in the second",
-                       axis.name, panel::in_words(axis.scaling), panel::in_words(panel::scale_in(names)));
+    return fmt::format(
+        "axis[{}].scale: is {}, the SCALE of its program {}: Modbus, MQTT and metrics show "
+        "positions in the first, the panel in the second",
+        axis.name, panel::in_words(axis.scaling), panel::in_words(panel::scale_in(names)));
 }
 
 std::string fault_of(const std::string& which, unsigned term, Result why,

@@ -21,7 +21,7 @@ constexpr auto kTorque = MotorItem::torque;
 using Turn = std::optional<MotorItem>;
 constexpr Turn kOther{};  ///< the next one of the others
 constexpr std::array<Turn, 8> kUsual{kPosition, kVelocity, kPosition, kTorque,
-                                      kPosition, kVelocity, kPosition, kOther};
+                                     kPosition, kVelocity, kPosition, kOther};
 /// For who looks at a trend: no more reads, and the torque as often as the position.
 constexpr std::array<Turn, 7> kTrend{kPosition, kVelocity, kTorque, kPosition, kVelocity, kTorque, kOther};
 
