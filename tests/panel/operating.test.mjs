@@ -12,6 +12,10 @@ const pick = join(examples, "pick_and_place.seq");
 
 const withPages = (count, use, options = {}, program = pick) => pagesOf(program, count, use, options);
 
+const isReadable = async (page, selector) => {
+  const [words, ground] = await page.locator(selector).evaluate((e) => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]);
+  assert.notEqual(words, ground, `${selector} can be read`);
+};
 const state = (page, text) => hasText(page, "#state-text", text);
 const lamp = (page, name, level) =>
   page.waitForFunction(([n, l]) => document.querySelector(`.lamp[aria-label="${n} is ${l}"]`) !== null, [name, level]);
@@ -77,6 +81,7 @@ test("who operates is taken over on request, and told so", () =>
     await second.click("#mode");
     await second.fill("#token", machine.token);
     await second.click("#token-form button[type=submit]");
+    await isReadable(second, "#notices button:has-text('Take over')");
     await second.click("#notices button:has-text('Take over')");
     await second.waitForFunction(() => document.body.classList.contains("operating"));
     await hasText(first, "#notices", "panel 2 at 127.0.0.1 has taken over; you are watching");
@@ -93,8 +98,8 @@ test("a stop that the motor does not confirm says that it may be moving", () =>
     await state(page, "stop not confirmed: the motor may be moving");
     await hasText(page, "#why li:first-child", "It may be moving");
     assert.doesNotMatch(await textOf(page, "#why"), /“Run” starts/);
-    const [words, ground] = await page.$eval("#do-give-up", (e) => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]);
-    assert.notEqual(words, ground, "the button can be read");
+    await isReadable(page, "#do-give-up");
+    for (const id of ["#do-run", "#do-step", "#do-scan"]) assert.equal(await page.getAttribute(id, "aria-disabled"), "true", id);
     await hasText(page, "#notices", "the machine may still be running");
     for (let i = 0; i < 6; ++i) { // other notices do not push it out
       await page.fill("#sim-action", `motor lod ${i}`);
@@ -125,6 +130,7 @@ test("a stop that the motor does not confirm is given up after a question", () =
     await page.click("#sim-cut");
     await page.click("#do-stop");
     await page.click("#do-give-up");
+    await isReadable(page, "#notices button:has-text('Give the stop up')");
     await page.click("#notices button:has-text('Give the stop up')");
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
     await hasText(page, "#sim-cut", "Restore the line");

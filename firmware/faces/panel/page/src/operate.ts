@@ -235,8 +235,8 @@ export class Operation {
     const enable = (id: string, on: boolean): void => setAttribute(byId(id), "aria-disabled", String(!on));
     const may = this.operates;
     enable("do-run", may && axis.hasTable && !axis.stopUnconfirmed && (axis.isStopped || axis.isHeld));
-    enable("do-step", may && axis.hasTable && !axis.isRunning);
-    enable("do-scan", may && axis.hasTable && !axis.isRunning);
+    enable("do-step", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
+    enable("do-scan", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
     enable("do-reset-error", may);
     enable("do-give-up", may);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
