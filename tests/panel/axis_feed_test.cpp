@@ -64,6 +64,17 @@ TEST(AxisFeed, AValueThatIsNotReadAgainIsToldOnceMoreAsNotGood) {
     EXPECT_EQ(next(21s), Json::parse(R"({"P_IST":[4711,0,true]})"));
 }
 
+TEST(AxisFeed, AsksForATrendOfTheTorque) {
+    Axis axis;
+    EXPECT_TRUE(axis.model.wants_trend(kBegin));
+    EXPECT_FALSE(axis.model.wants_trend(kBegin + 1'001ms));
+    axis.read(MotorItem::torque, 512, kBegin);
+    axis.leave(kBegin);
+    const faces::AxisImage told = axis.feed.image();
+    axis.leave(kBegin + 2'010ms);
+    EXPECT_EQ(axis.values(&told, kBegin + 2'010ms), Json::parse(R"({"VF_OUT":[512,2010,false]})"));
+}
+
 TEST(AxisFeed, TellsTheNameOfTheProgramsFile) {
     Axis axis;
     axis.model.table_shelf().put(std::make_shared<const faces::AxisTable>(

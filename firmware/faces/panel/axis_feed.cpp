@@ -26,8 +26,8 @@ constexpr std::uint8_t kFirstEvent = 16;
 
 /// Validity of a motor value: more than twice the time after which it is read again.
 base::Milliseconds limit_of(faces::MotorItem item) {
-    if (faces::is_frequent(item)) return base::Milliseconds(2'000);
-    return base::Milliseconds(item == faces::MotorItem::torque ? 3'000 : 20'000);
+    const bool is_often = faces::is_frequent(item) || item == faces::MotorItem::torque;
+    return base::Milliseconds(is_often ? 2'000 : 20'000);
 }
 
 /// They change continuously: ten updates a second are enough.
@@ -193,6 +193,7 @@ std::uint32_t AxisFeed::age(base::Instant now) const {
 void AxisFeed::look(base::Instant now) {
     const std::uint64_t before = image_.number;
     std::shared_ptr<const faces::Findings> why;
+    model_.want_trend(now);
     image_ = model_.image_with_why(now, &why);
     if (image_.number == 0) return;
     take_why(why);
@@ -306,6 +307,8 @@ std::string AxisFeed::info_text() const {
                 {"motor", motor},
                 {"counts_per_rev", scale.counts_per_rev},
                 {"samples_per_second", scale.samples_per_second},
+                {"unit", model_.scaling().unit},
+                {"per_revolution", model_.scaling().per_revolution},
                 {"error_bits", error_bits(model)},
                 {"modes", modes_of(model)}}
         .dump();
