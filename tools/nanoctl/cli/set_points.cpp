@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/dropped.h"
 #include "cli/session.h"
 #include "command_line/files.h"
 #include "set_points/recipe_file.h"
@@ -45,8 +46,9 @@ std::string state_text(const KeptSetPoints& kept) {
     return text;
 }
 
-void show_set_points(Session& session) {
-    const KeptSetPoints kept = read_set_points(session.gateway());
+/// `dropped`: of what was loaded before.
+void tell_set_points(Session& session, const KeptSetPoints& kept,
+                     const std::vector<set_points::Dropped>& dropped) {
     std::string text;
     Json all = Json::array();
     for (std::size_t i = 0; i < kept.record.values.size(); ++i) {
@@ -59,11 +61,17 @@ void show_set_points(Session& session) {
                             set_points::text_of(point, kept.wanted[i]), set_points::range_text(point), force);
         all.push_back(json_of(point, kept, i));
     }
-    session.tell(text + state_text(kept), {{"set_points", all},
-                                           {"waits", (kept.state & gw::kChangeWaits) != 0},
-                                           {"damaged", (kept.state & gw::kValuesDamaged) != 0},
-                                           {"recipe", (kept.state & gw::kActiveRecipe) >> 8},
-                                           {"differs", (kept.state & gw::kRecipeDiffers) != 0}});
+    session.tell(text + state_text(kept) + lines_of(dropped),
+                 {{"set_points", all},
+                  {"waits", (kept.state & gw::kChangeWaits) != 0},
+                  {"damaged", (kept.state & gw::kValuesDamaged) != 0},
+                  {"recipe", (kept.state & gw::kActiveRecipe) >> 8},
+                  {"differs", (kept.state & gw::kRecipeDiffers) != 0},
+                  {"dropped", json_of(dropped)}});
+}
+
+void show_set_points(Session& session) {
+    tell_set_points(session, read_set_points(session.gateway()), {});
 }
 
 NewValue parse_value(const std::string& text, const set_points::Record& record) {
@@ -161,8 +169,9 @@ Recipe ask_for(SetPointRequest kind, Session& session, const std::string& name) 
 }
 
 void load_recipe(Session& session, const std::string& name) {
-    ask_for(SetPointRequest::load_recipe, session, name);
-    show_set_points(session);
+    const Recipe recipe = ask_for(SetPointRequest::load_recipe, session, name);
+    const KeptSetPoints kept = read_set_points(session.gateway());
+    tell_set_points(session, kept, dropped_by_loading(recipe, kept));
 }
 
 void delete_recipe(Session& session, const std::string& name) {
