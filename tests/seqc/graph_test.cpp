@@ -234,7 +234,7 @@ TEST(GraphModel, AStepAndItsCopiesAreOneBox) {
     const GraphModel::Box& idle = box_named(model, "Idle");
     EXPECT_GE(idle.steps.size(), 4U);
     EXPECT_EQ(idle.outputs, (Texts{"OUT Ready"}));
-    EXPECT_EQ(texts_of(idle), (Texts{"R_TRIG ( Start ) / SET Clamp -> 2", "F_TRIG ( Ack ) -> 2"}));
+    EXPECT_EQ(texts_of(idle), (Texts{"R_TRIG(Start) / SET Clamp -> 2", "F_TRIG(Ack) -> 2"}));
     const GraphModel::Box& down = box_named(model, "Down");
     EXPECT_EQ(down.outputs, (Texts{"Clamp as before"}));
     EXPECT_EQ(texts_of(down), (Texts{"Low FOR 2 s / RESET Clamp -> 1", "Start / COUNT_DOWN -> 2"}));
