@@ -20,7 +20,7 @@ using gw::SetPointRequest;
 using set_points::NewValue;
 using set_points::Recipe;
 
-Json json_of(const set_points::SetPoint& point, const KeptSetPoints& kept, std::size_t index) {
+Json point_json(const set_points::SetPoint& point, const KeptSetPoints& kept, std::size_t index) {
     const auto number = [&](std::int32_t value) { return set_points::shown_value(point, value); };
     return {{"name", point.name},
             {"value", number(kept.wanted[index])},
@@ -59,7 +59,7 @@ void tell_set_points(Session& session, const KeptSetPoints& kept,
                 : fmt::format(", in force {}", set_points::text_of(point, kept.in_force[i]));
         text += fmt::format("{}{:<18} {:<12} {}{}", text.empty() ? "" : "\n", point.name,
                             set_points::text_of(point, kept.wanted[i]), set_points::range_text(point), force);
-        all.push_back(json_of(point, kept, i));
+        all.push_back(point_json(point, kept, i));
     }
     session.tell(text + state_text(kept) + lines_of(dropped),
                  {{"set_points", all},
