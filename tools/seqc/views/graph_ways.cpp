@@ -281,8 +281,8 @@ std::vector<std::string> GraphWays::outputs(std::uint8_t step) const {
 std::string GraphWays::made_as(std::uint8_t step) const {
     if (symbols_ == nullptr || step >= symbols_->made_for.size() || symbols_->made_for[step].empty())
         return {};
-    const auto of = symbols_->copy_of[step];
-    if (of) return "copy of " + symbols_->steps[*of];
+    if (const std::uint8_t of = step_as_written(*symbols_, step); of != step)
+        return "copy of " + symbols_->steps[of];
     const std::string& why = symbols_->made_for[step];
     return why.substr(0, why.find_first_of(":,"));
 }
