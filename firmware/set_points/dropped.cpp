@@ -12,9 +12,8 @@ namespace nplc::set_points {
 namespace {
 
 const SetPoint* find_hashed(const Record& record, std::uint32_t name_hash) {
-    const auto found =
-        std::find_if(record.values.begin(), record.values.end(),
-                     [&](const SetPoint& point) { return hash_of(point.name) == name_hash; });
+    const auto found = std::find_if(record.values.begin(), record.values.end(),
+                                    [&](const SetPoint& point) { return hash_of(point.name) == name_hash; });
     return found == record.values.end() ? nullptr : &*found;
 }
 

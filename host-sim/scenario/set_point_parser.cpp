@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "parser.h"
-#include "units.h"
 #include "set_points/recipes.h"
 #include "set_points/request.h"
 #include "set_points/values.h"
+#include "units.h"
 
 namespace nplc::sim {
 
@@ -74,8 +74,7 @@ void ConditionParser::set_point_value(Condition& condition) {
     if (reader_.take("+-")) {
         if (condition.relation != Relation::equal) reader_.refuse("a tolerance (+-) goes with = only");
         condition.tolerance = point_measure(point, "a number after +-").value;
-        if (condition.tolerance < 0)
-            reader_.refuse("a tolerance is not negative; write it without the sign");
+        if (condition.tolerance < 0) reader_.refuse("a tolerance is not negative; write it without the sign");
         condition.tolerance += kRounded;
         return;
     }

@@ -246,13 +246,14 @@ TEST(DropWatch, NamesWhatAnotherTableDoesNotTake) {
     std::string told;
     for (const set_points::Dropped& one : watch.exchanged(*bench.port.controller))
         told += set_points::text_of(one) + "\n";
-    EXPECT_EQ(told,
-              "Length 70000 counts is dropped, its default 65536 counts is in its place: it takes -4096 counts "
-              "to 65536 counts\n"
-              "Dwell 500 ms is dropped: the table has no such set-point\n"
-              "recipe 'Short': Length 70000 counts is not loaded, its default 65536 counts is in its place: it "
-              "takes -4096 counts to 65536 counts\n"
-              "recipe 'Short': Dwell 500 ms is not loaded: the table has no such set-point\n");
+    EXPECT_EQ(
+        told,
+        "Length 70000 counts is dropped, its default 65536 counts is in its place: it takes -4096 counts "
+        "to 65536 counts\n"
+        "Dwell 500 ms is dropped: the table has no such set-point\n"
+        "recipe 'Short': Length 70000 counts is not loaded, its default 65536 counts is in its place: it "
+        "takes -4096 counts to 65536 counts\n"
+        "recipe 'Short': Dwell 500 ms is not loaded: the table has no such set-point\n");
     EXPECT_TRUE(watch.exchanged(*bench.port.controller).empty()) << "told once";
 }
 

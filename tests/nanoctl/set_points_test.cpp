@@ -137,14 +137,15 @@ TEST(NanoctlSetPoints, WhatANewTableDropsIsNamedWithTheReason) {
     bench.ask(SetPointRequest::change, {{0, -5}, {1, 2500}, {2, 20}});
     bench.ask(SetPointRequest::put_recipe, {{0, 7}, {1, 200}}, "Short");
     const Exchange exchange(bench, other_record());
-    EXPECT_EQ(exchange.told,
-              "Length -5 counts is dropped: the table has no such set-point\n"
-              "Speed 1192 rpm is dropped, its default 477 rpm is in its place: it takes 47.7 rpm to 953.7 rpm\n"
-              "Dwell 20 ms is dropped, its default 500 parts is in its place: its unit is another one, it takes "
-              "1 parts to 5000 parts\n"
-              "recipe 'Short': Length 7 counts is not loaded: the table has no such set-point\n"
-              "recipe 'Short': Dwell 20 ms is not loaded, its default 500 parts is in its place: its unit is "
-              "another one, it takes 1 parts to 5000 parts\n");
+    EXPECT_EQ(
+        exchange.told,
+        "Length -5 counts is dropped: the table has no such set-point\n"
+        "Speed 1192 rpm is dropped, its default 477 rpm is in its place: it takes 47.7 rpm to 953.7 rpm\n"
+        "Dwell 20 ms is dropped, its default 500 parts is in its place: its unit is another one, it takes "
+        "1 parts to 5000 parts\n"
+        "recipe 'Short': Length 7 counts is not loaded: the table has no such set-point\n"
+        "recipe 'Short': Dwell 20 ms is not loaded, its default 500 parts is in its place: its unit is "
+        "another one, it takes 1 parts to 5000 parts\n");
     const KeptSetPoints kept = read_set_points(bench.client);
     EXPECT_EQ(kept.wanted, (std::vector<std::int32_t>{1000, 500}));
     EXPECT_EQ(Exchange(bench, other_record()).before, std::nullopt) << "the same record: nothing is dropped";
@@ -190,12 +191,13 @@ TEST(NanoctlSetPoints, WhatALoadedRecipeDoesNotGiveIsNamed) {
     std::string told;
     for (const set_points::Dropped& one : dropped_by_loading(recipe, read_set_points(bench.client)))
         told += set_points::text_of(one) + "\n";
-    EXPECT_EQ(told,
-              "recipe 'Short': a value is not loaded: the table has no such set-point\n"
-              "recipe 'Short': Speed 1192 rpm is not loaded, its default 477 rpm is in its place: it takes 47.7 "
-              "rpm to 953.7 rpm\n"
-              "recipe 'Short': Dwell is not loaded, its default 500 parts is in its place: its unit is another "
-              "one, it takes 1 parts to 5000 parts\n");
+    EXPECT_EQ(
+        told,
+        "recipe 'Short': a value is not loaded: the table has no such set-point\n"
+        "recipe 'Short': Speed 1192 rpm is not loaded, its default 477 rpm is in its place: it takes 47.7 "
+        "rpm to 953.7 rpm\n"
+        "recipe 'Short': Dwell is not loaded, its default 500 parts is in its place: its unit is another "
+        "one, it takes 1 parts to 5000 parts\n");
 }
 
 /// What a storage takes longer than any answer is waited for: its real end is told.

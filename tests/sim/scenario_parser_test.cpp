@@ -433,7 +433,8 @@ TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
               "1:17: 90.05 mm is between two steps, 90 or 90.1; Length takes 10 mm to 200 mm in steps of 0.1 "
               "mm\n");
     EXPECT_EQ(wrong("expect Length > 90 mm +- 1 mm"), "1:23: a tolerance (+-) goes with = only\n");
-    EXPECT_EQ(wrong("expect Length"), "1:14: the line ends too early; write a comparison, such as Length = 0\n");
+    EXPECT_EQ(wrong("expect Length"),
+              "1:14: the line ends too early; write a comparison, such as Length = 0\n");
     EXPECT_EQ(wrong("at 1 s Length := 90 mm"),
               "1:8: Length is a set-point; write set Length := and its value\n");
 }

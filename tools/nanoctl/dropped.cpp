@@ -34,8 +34,9 @@ void add_refused(std::vector<Dropped>& all, const ValuesBefore& before, const se
         const set_points::SetPoint& point = now.values[i];
         const set_points::SetPoint* old = set_points::find(before.kept.record, point.name);
         if ((mask >> i & 1U) == 0 || old == nullptr || is_among(all, old->name)) continue;
-        const std::int32_t value = before.kept.wanted[static_cast<std::size_t>(
-            std::distance(before.kept.record.values.data(), old))];
+        const std::int32_t value =
+            before.kept
+                .wanted[static_cast<std::size_t>(std::distance(before.kept.record.values.data(), old))];
         if (value != old->initial && value != point.initial)
             all.push_back(set_points::refused_by_motor(point, value));
     }

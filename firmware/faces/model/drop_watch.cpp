@@ -12,7 +12,8 @@ void DropWatch::look(gateway::Controller& controller) {
 
 std::vector<set_points::Dropped> DropWatch::exchanged(gateway::Controller& controller) {
     SetPointBook book = book_of(controller);
-    std::vector<set_points::Dropped> dropped = set_points::dropped_by({record_, wanted_, recipes_}, book.record);
+    std::vector<set_points::Dropped> dropped =
+        set_points::dropped_by({record_, wanted_, recipes_}, book.record);
     edition_ = book.edition;
     record_ = std::move(book.record);
     recipes_ = std::move(book.recipes);

@@ -126,12 +126,12 @@ void upload_file(Session& session, const UploadOptions& options) {
     const std::uint32_t crc = base::crc32(table);
     const std::size_t terms = table.size() / 8 - 1;
     session.tell(
-        fmt::format(
-            "{} of {} {} in {:.1f} s, CRC {:08X}h{}{}{}{}", options.file, terms_text(table.size()),
-            options.only_store ? "stored" : "stored and active", seconds, crc,
-            digest ? fmt::format(", certificate {}", options.proof) : "", options.run ? ", started" : "",
-            keeps ? "" : "; its firmware keeps no set-points, the defaults stand in the table",
-            dropped_text(dropped, options.only_store)),
+        fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}{}{}{}", options.file, terms_text(table.size()),
+                    options.only_store ? "stored" : "stored and active", seconds, crc,
+                    digest ? fmt::format(", certificate {}", options.proof) : "",
+                    options.run ? ", started" : "",
+                    keeps ? "" : "; its firmware keeps no set-points, the defaults stand in the table",
+                    dropped_text(dropped, options.only_store)),
         {{"file", options.file},
          {"terms", terms},
          {"bytes", table.size()},

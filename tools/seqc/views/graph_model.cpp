@@ -173,17 +173,18 @@ class Builder {
         const bool named =
             symbols_ != nullptr && step < symbols_->steps.size() && !symbols_->steps[step].empty();
         const Steps steps = source_.drawn_with(step);
-        GraphModel::Box box{.step = step,
-                            .steps = steps,
-                            .name = step_name(step, symbols_),
-                            .shows_number = named,
-                            .reachable = std::any_of(steps.begin(), steps.end(),
-                                                     [this](std::uint8_t s) { return machine_.reachable.test(s); }),
-                            .made_as = source_.made_as(step),
-                            .is_of_compiler = false,
-                            .outputs = source_.outputs(step),
-                            .entry = source_.entry(step),
-                            .ways = {}};
+        GraphModel::Box box{
+            .step = step,
+            .steps = steps,
+            .name = step_name(step, symbols_),
+            .shows_number = named,
+            .reachable = std::any_of(steps.begin(), steps.end(),
+                                     [this](std::uint8_t s) { return machine_.reachable.test(s); }),
+            .made_as = source_.made_as(step),
+            .is_of_compiler = false,
+            .outputs = source_.outputs(step),
+            .entry = source_.entry(step),
+            .ways = {}};
         if (step != 0 && symbols_ != nullptr && (symbols_->set_points.takes >> step & 1U) != 0)
             box.outputs.emplace_back("TAKES SET_POINTS");
         box.is_of_compiler = !box.made_as.empty() && !box.made_as.starts_with("of SEQUENCE");
@@ -238,7 +239,8 @@ std::string numbers_text(const GraphModel::Steps& steps) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const std::size_t first = i;
         while (i + 1 < steps.size() && steps[i + 1] == steps[i] + 1) ++i;
-        append(text, i == first ? fmt::format("{}", steps[i]) : fmt::format("{} to {}", steps[first], steps[i]),
+        append(text,
+               i == first ? fmt::format("{}", steps[i]) : fmt::format("{} to {}", steps[first], steps[i]),
                ", ");
     }
     return (steps.size() == 1 ? "step " : "steps ") + text;

@@ -270,7 +270,8 @@ std::vector<std::string> GraphWays::outputs(std::uint8_t step) const {
     std::string always_on;
     std::string as_before;  // on in some of the copies: SET has been before, or not
     for (std::uint8_t bit = 0; bit < on.size(); ++bit) {
-        if (on[bit] != 0) append(on[bit] == steps.size() ? always_on : as_before, output_name(bit, symbols_), ", ");
+        if (on[bit] != 0)
+            append(on[bit] == steps.size() ? always_on : as_before, output_name(bit, symbols_), ", ");
     }
     if (!as_before.empty()) texts.insert(texts.begin(), as_before + " as before");
     if (!blinking.empty()) texts.insert(texts.begin(), blinking);
