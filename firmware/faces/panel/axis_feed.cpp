@@ -191,12 +191,15 @@ std::uint32_t AxisFeed::age(base::Instant now) const {
 }
 
 void AxisFeed::look(base::Instant now) {
+    constexpr base::Milliseconds kSeen{2'000};  // what was changed meanwhile is not known after longer
     const std::uint64_t before = image_.number;
+    const base::Instant seen = image_.taken;
     std::shared_ptr<const faces::Findings> why;
     image_ = model_.image_with_why(now, &why);
     if (image_.number == 0) return;
     take_why(why);
     if (set_points_.look(image_, model_.set_points())) ++set_points_number_;
+    if (image_.taken - seen > kSeen) static_cast<void>(set_points_.take_dropped());
     if (image_.number != before) {
         take_events();
         static_cast<void>(set_points_.take_dropped());
