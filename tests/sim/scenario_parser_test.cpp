@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/scenario.h"
 
 namespace nplc::sim {
@@ -423,7 +425,7 @@ TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
     const Names names = names_with_set_points();
     const auto wrong = [&](const std::string& text) { return all_mistakes(text, names); };
     EXPECT_EQ(wrong("expect Lenght = 90 mm"), "1:8: \"Lenght\" is not known; did you mean Length?\n");
-    EXPECT_EQ(wrong("expect Length = 90 rpm"), "1:20: \"rpm\" is no unit of Length; write mm\n");
+    EXPECT_EQ(wrong("expect Length = 90 cm"), "1:20: \"cm\" is no unit of Length; write mm\n");
     EXPECT_EQ(wrong("expect Length = 90 mm +- 1 ms"), "1:28: \"ms\" is no unit of Length; write mm\n");
     EXPECT_EQ(wrong("expect Pieces = 3 mm"), "1:19: Pieces has no unit; write the number alone\n");
     EXPECT_EQ(wrong("expect Dwell = 2 mm"), "1:18: \"mm\" is no unit of Dwell; write ms or s\n");
