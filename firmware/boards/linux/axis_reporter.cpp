@@ -49,6 +49,7 @@ bool is_of_store(const gateway::EventLog::Entry& entry) {
 
 void AxisReporter::start(base::Instant now) {
     events_.restart();
+    drops_.restart();
     tell_silence_at_ = now + kFirstAnswer;
 }
 
@@ -72,7 +73,18 @@ void AxisReporter::report_events(gateway::Controller& controller, const faces::S
             fields.push_back({"CLIENT", client});
         }
         journal_.write(message.level, message.text, fields);
+        if (static_cast<Event>(entry.event) == Event::table_activated) report_drops(controller);
     });
+    drops_.look(controller);
+}
+
+void AxisReporter::report_drops(gateway::Controller& controller) {
+    for (const set_points::Dropped& one : drops_.exchanged(controller)) {
+        journal_.write(LogLevel::warning, "set-points: " + set_points::text_of(one),
+                       {{"EVENT", "set_point_dropped"},
+                        {"SET_POINT", one.name},
+                        {"REASON", std::string(set_points::key_of(one.why))}});
+    }
 }
 
 void AxisReporter::report_link(MotorPart& motor, base::Instant now) {

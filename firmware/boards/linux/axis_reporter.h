@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "faces/drop_watch.h"
 #include "faces/tally.h"
 #include "gateway/controller.h"
 #include "journal.h"
@@ -29,11 +30,13 @@ class AxisReporter {
 
   private:
     void report_events(gateway::Controller& controller, const faces::Sitter* holder);
+    void report_drops(gateway::Controller& controller);
     void report_link(MotorPart& motor, base::Instant now);
 
     AxisJournal& journal_;
     base::Instant tell_silence_at_ = base::kNever;
     faces::NewEvents events_;
+    faces::DropWatch drops_;
     motor::Link told_link_ = motor::Link::down;
     bool has_store_ = true;
 };
