@@ -95,7 +95,8 @@ void JvlLink::forget(base::Instant now) {
     filter_.forget();
     replies_.abandon();
     expect_ = Expect::nothing;
-    accepted_ = synchronized_ = echo_was_false_ = false;
+    accepted_ = synchronized_ = false;
+    denied_ = 0;
     size_ = sent_ = 0;
     strange_shown_ = 0;
     reads_ = false;
@@ -195,8 +196,7 @@ void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
     const bool is_old = busy() && on_the_line_ && now - left_at_ >= patience() && shows_old(seen);
     old_shown_ = is_old ? bump(old_shown_) : std::uint8_t{0};
     strange_shown_ = in_step(seen) ? std::uint8_t{0} : bump(strange_shown_);
-    denied_ = denies_echo(seen) ? bump(denied_) : std::uint8_t{0};
-    if (denied_ >= kFalseEchoBytes) echo_was_false_ = true;
+    if (denied_ < kFalseEchoBytes) denied_ = denies_echo(seen) ? bump(denied_) : std::uint8_t{0};
     if (is_done()) settle(now);
 }
 
@@ -251,7 +251,7 @@ bool JvlLink::in_step(const Status& seen) const {
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (synchronized_ && listening_.too_late)
         return Result::silent;  // even if accepted: orders queued behind it would be late
-    if (echo_was_false_) return Result::out_of_step;
+    if (denied_ >= kFalseEchoBytes) return Result::out_of_step;
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
     if (now - last_status_ > longest_silence()) return Result::silent;

@@ -65,7 +65,7 @@ class AxisStore {
     std::optional<StoreOwner> owner_;
     AutostartPermission permission_ = AutostartPermission::first_run;
     bool is_marked_ = true;
-    bool is_after_crash_ = false;  ///< and nobody has commanded run since
+    bool is_after_crash_ = false;         ///< and nobody has commanded run since
     std::optional<base::Instant> asked_;  ///< when the permission was
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;

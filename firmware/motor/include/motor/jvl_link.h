@@ -122,8 +122,7 @@ class JvlLink {
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
     std::uint8_t denied_ = 0;  ///< status bytes in a row that deny the last echo
-    bool echo_was_false_ = false;  ///< the echo before leaving FlexMAC was a damaged status byte
-    bool reads_ = false;  ///< the answer to request_ is pending
+    bool reads_ = false;       ///< the answer to request_ is pending
     bool synchronized_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;
