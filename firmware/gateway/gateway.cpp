@@ -280,16 +280,12 @@ void Gateway::hold_when_settled(base::Instant now) {
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = motor_.link();
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
-    if (!motor::delivers(link)) {
-        if (!stop_after_loss_) watch_new_stop();
-        stop_after_loss_ = true;
-        scan_.mode().set_passive();
-        return;
+    const bool is_lost = !motor::delivers(link);
+    if (is_lost != stop_after_loss_) {
+        stop_after_loss_ = is_lost;
+        stop_motor();
     }
-    if (stop_after_loss_) {
-        watch_new_stop();
-        stop_after_loss_ = false;
-    }
+    if (is_lost) return scan_.mode().set_passive();
     if (link == motor::Link::up && safe_reason() == SafeReason::link_down) {
         safe_.leave();
         note(Event::link_up);
@@ -315,11 +311,6 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     scan_.abort();
     hold_.set(After::never);
     set_safe_reason(reason, now);
-    watch_new_stop();
-}
-
-/// The log tells when the motor has confirmed it.
-void Gateway::watch_new_stop() {
     stop_motor();
     stop_watched_ = true;
 }

@@ -96,7 +96,6 @@ void JvlLink::forget(base::Instant now) {
     replies_.abandon();
     expect_ = Expect::nothing;
     accepted_ = synchronized_ = false;
-    denied_ = 0;
     size_ = sent_ = 0;
     strange_shown_ = 0;
     reads_ = false;
@@ -195,8 +194,7 @@ void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
     const Status seen = protocol::fastmac::decode_status(byte);
     const bool is_old = busy() && on_the_line_ && now - left_at_ >= patience() && shows_old(seen);
     old_shown_ = is_old ? bump(old_shown_) : std::uint8_t{0};
-    strange_shown_ = in_step(seen) ? std::uint8_t{0} : bump(strange_shown_);
-    if (denied_ < kFalseEchoBytes) denied_ = denies_echo(seen) ? bump(denied_) : std::uint8_t{0};
+    strange_shown_ = in_step(seen) && !echo_was_false() ? std::uint8_t{0} : bump(strange_shown_);
     if (is_done()) settle(now);
 }
 
@@ -204,10 +202,10 @@ bool JvlLink::shows_old(const Status& seen) const {
     return expect_ == Expect::leave_flexmac ? seen.flexmac : seen.toggle == toggle_;
 }
 
-/// It was sent before the motor had the message that leaves FlexMAC, and shows the toggle from before the one
-/// that was taken for accepted.
-bool JvlLink::denies_echo(const Status& seen) const {
-    return expect_ == Expect::leave_flexmac && !on_the_line_ && seen.flexmac && seen.toggle != toggle_;
+/// Until FlexMAC is left the status shows the toggle of the message before; another one denies that this was
+/// accepted.
+bool JvlLink::echo_was_false() const {
+    return expect_ == Expect::leave_flexmac && strange_shown_ >= kFalseEchoBytes;
 }
 
 bool JvlLink::is_done() const {
@@ -220,7 +218,7 @@ bool JvlLink::is_done() const {
         case Expect::enter_flexmac:
             return status().toggle != toggle_ && status().flexmac;
         case Expect::leave_flexmac:
-            return !status().flexmac;
+            return !status().flexmac && strange_shown_ < kFalseEchoBytes;
     }
     return false;
 }
@@ -241,9 +239,9 @@ bool JvlLink::in_step(const Status& seen) const {
         case Expect::toggle:
             return seen.flexmac == flexmac_;
         case Expect::enter_flexmac:
-            return true;
+            break;
         case Expect::leave_flexmac:
-            return true;
+            return !seen.flexmac || seen.toggle == toggle_;
     }
     return true;
 }
@@ -251,11 +249,10 @@ bool JvlLink::in_step(const Status& seen) const {
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (synchronized_ && listening_.too_late)
         return Result::silent;  // even if accepted: orders queued behind it would be late
-    if (denied_ >= kFalseEchoBytes) return Result::out_of_step;
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
     if (now - last_status_ > longest_silence()) return Result::silent;
-    if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
+    if (echo_was_false() || strange_shown_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;
 }
 

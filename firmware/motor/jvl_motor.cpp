@@ -54,7 +54,7 @@ void JvlMotor::poll(base::Instant now) {
 void JvlMotor::begin_orders(base::Instant now) {
     if (link_.busy()) return;
     follow_access(now);
-    if (reply_until_ && !stop_wanted_ && orders_.empty()) return;
+    if (reply_until_ && !wants_stop() && orders_.empty()) return;
     if (is_up()) {
         work(now);
     } else {
@@ -70,7 +70,7 @@ base::Instant JvlMotor::next_poll(base::Instant now) const {
     if (phase_ != Phase::down) return std::min(next, proof_due());
     if (blind_stop_.is_under_way()) return link_.has_left() ? now : next;
     if (link_.framing_error_seen()) next = std::min(next, next_blind_);
-    if (stop_wanted_ && link_.has_left()) next = std::min(next, blind_stop_.due());
+    if (wants_stop() && link_.has_left()) next = std::min(next, blind_stop_.due());
     return next;
 }
 
@@ -81,7 +81,7 @@ void JvlMotor::lose_link(base::Instant now) {
         ++losses_;
     }
     access_.fail_open();
-    if (stop_unproven_) stop();
+    if (stop_ != Stop::confirmed) stop_ = Stop::wanted;
     was_up_ = safe_now_ = slowed_ = holds_ = is_aside_ = false;
     reply_until_.reset();
     sending_ = Sending::nothing;
@@ -104,8 +104,7 @@ void JvlMotor::on_accepted(base::Instant now) {
             on_executed(orders_.current());
             break;
         case Sending::stop:
-            stop_wanted_ = false;
-            stop_unproven_ = true;
+            stop_ = Stop::unproven;
             hold_in_position();
             break;
         case Sending::access:
@@ -117,7 +116,7 @@ void JvlMotor::on_accepted(base::Instant now) {
             hold_in_position();
             break;
     }
-    if (!link_.flexmac()) stop_unproven_ = false;
+    if (!link_.flexmac() && !wants_stop()) stop_ = Stop::confirmed;
     if (is_up() && !was_up_) {
         was_up_ = true;
         safe_now_ = safe_communication_;
@@ -171,7 +170,7 @@ void JvlMotor::start_up(base::Instant now) {
 bool JvlMotor::send_blind_stop(base::Instant now) {
     if (!blind_stop_.is_allowed()) blind_stop_.allow(now + link_.silence());
     if (!link_.has_left()) return blind_stop_.is_under_way();
-    if (!blind_stop_.is_under_way() && (!stop_wanted_ || !blind_stop_.is_due(now))) return false;
+    if (!blind_stop_.is_under_way() && (!wants_stop() || !blind_stop_.is_due(now))) return false;
     const auto part = blind_stop_.take_part(registers_are_32_bit_, now);
     link_.forget(now);
     if (part.size != 0) link_.send_blind(part.view(), now);
@@ -197,15 +196,15 @@ void JvlMotor::free_the_line(base::Instant now) {
 /// There is something to send.
 bool JvlMotor::has_work() const {
     if (!is_up()) return phase_ != Phase::down;
-    if (stop_wanted_ || !orders_.empty()) return true;
+    if (wants_stop() || !orders_.empty()) return true;
     if (reply_until_) return false;
     return access_.waits() || link_.flexmac() || (link_.framing_error_seen() && !slowed_);
 }
 
 void JvlMotor::work(base::Instant now) {
     const bool in_flexmac = link_.flexmac();
-    const bool idle = !stop_wanted_ && orders_.empty();
-    const bool writes = stop_wanted_ || (!idle && orders_.front().is_register_write);
+    const bool idle = !wants_stop() && orders_.empty();
+    const bool writes = wants_stop() || (!idle && orders_.front().is_register_write);
     const bool accesses = idle && access_.waits();
     if (in_flexmac && !writes && !accesses) {
         sending_ = Sending::link_command;
@@ -218,7 +217,7 @@ void JvlMotor::work(base::Instant now) {
     is_aside_ = idle;
     if (!in_flexmac && (writes || accesses))
         return command(Sending::link_command, command_byte(Number::use_flexmac), now);
-    if (stop_wanted_) {
+    if (wants_stop()) {
         return write_register(Sending::stop,
                               {.is_register_write = true, .reg = kModeReg, .longword = registers_are_32_bit_},
                               now);
@@ -292,16 +291,15 @@ bool JvlMotor::can_execute(const Order& order) const {
 void JvlMotor::stop() {
     orders_.discard_waiting();
     access_.fail_waiting();
-    stop_wanted_ = true;
-    stop_unproven_ = false;
+    stop_ = Stop::wanted;
     blind_stop_.begin_anew();
 }
 
 bool JvlMotor::settled() const {
     if (!is_up()) return true;
     const bool wants_slow = link_.framing_error_seen() && !slowed_;
-    if (is_aside_) return orders_.empty() && !stop_wanted_;
-    return !link_.busy() && orders_.empty() && !stop_wanted_ && !link_.flexmac() && !wants_slow;
+    if (is_aside_) return orders_.empty() && !wants_stop();
+    return !link_.busy() && orders_.empty() && !wants_stop() && !link_.flexmac() && !wants_slow;
 }
 
 Counters JvlMotor::counters() const {

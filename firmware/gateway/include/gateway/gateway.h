@@ -203,7 +203,6 @@ class Gateway {
     void serve_sequence(base::Instant now);
     void scan(base::Instant now);
     void stop_motor();
-    void watch_new_stop();
     void watch_stop();
     void leave_safe_state();
     void begin_hold(bool breakpoint, base::Instant now);

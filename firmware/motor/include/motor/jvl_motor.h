@@ -36,8 +36,8 @@ class JvlMotor final : public Motor {
     void send(const Order& order) override { orders_.push(order, is_up()); }
     bool can_execute(const Order& order) const override;
     void stop() override;
-    bool stop_confirmed() const override { return !stop_wanted_ && !stop_unproven_; }
-    void give_up_stop() override { stop_wanted_ = stop_unproven_ = false; }
+    bool stop_confirmed() const override { return stop_ == Stop::confirmed; }
+    void give_up_stop() override { stop_ = Stop::confirmed; }
     bool begin_access(const Access& access) override { return is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }
@@ -56,6 +56,10 @@ class JvlMotor final : public Motor {
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
     enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop, access };
 
+    /// Unproven: its echo is, until FlexMAC has been left without a contradiction.
+    enum class Stop : std::uint8_t { confirmed, unproven, wanted };
+
+    bool wants_stop() const { return stop_ == Stop::wanted; }
     bool is_up() const { return phase_ == Phase::up; }
     void lose_link(base::Instant now);
     void on_accepted(base::Instant now);
@@ -84,8 +88,7 @@ class JvlMotor final : public Motor {
     protocol::fastmac::RegisterCode register_code_;
     bool safe_now_ = false;  ///< the motor expects every byte twice
     bool slowed_ = false;    ///< 13h has been sent
-    bool stop_wanted_ = false;
-    bool stop_unproven_ = false;  ///< its echo is proved when FlexMAC is left without a contradiction
+    Stop stop_ = Stop::confirmed;
     bool link_error_ = false;
     bool was_up_ = false;
     bool is_aside_ =
