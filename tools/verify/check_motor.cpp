@@ -15,6 +15,7 @@ namespace {
 
 using Node = Explorer::Node;
 using sequencer::MotorOrder;
+using table::OrderKind;
 
 std::string order_text(const MotorOrder& order) {
     return order.is_register_write ? fmt::format("{}={}", order.reg, order.value)
