@@ -218,6 +218,20 @@ class Running(Case):
         events = [entry["event"] for entry in self.ctl("log")["entries"]]
         self.assertLess(events.index("link down"), events.index("link up"))
 
+    def test_a_run_without_a_motor_says_when_it_starts(self):
+        scenario = self.path("cut.scn")
+        with open(scenario, "w", encoding="utf-8") as file:
+            file.write("at 500 ms line cut\n")
+        process = self.start()
+        self.ctl("upload", self.table)
+        self.end(process)
+        self.start("--new", "--scenario", scenario)
+        self.until(lambda status: status["link"] == "down")
+        done = self.call("run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "waiting for the motor, step 0; it does not answer: the sequence starts as soon as it does, "
+                                      "nanoctl stop ends that\n")
+
     def test_two_clients_at_once(self):
         self.start()
         self.ctl("upload", self.table, "--run")

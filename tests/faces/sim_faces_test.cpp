@@ -30,7 +30,8 @@ TEST(World, SaysWhetherTheLineIsCutAndTheShaftBlocked) {
     EXPECT_FALSE(world.shaft_is_blocked()) << "at an end";
     world.act(action::StopMotor{.above = false, .counts = -100});
     EXPECT_FALSE(world.shaft_is_blocked()) << "between two ends";
-    world.act(action::StopMotor{.above = false, .counts = 100});
+    world.act(action::StopMotor{.above = true, .counts = 0});
+    world.act(action::StopMotor{.above = false, .counts = 0});
     EXPECT_TRUE(world.shaft_is_blocked());
     world.act(action::FreeMotor{});
     EXPECT_FALSE(world.shaft_is_blocked());

@@ -56,6 +56,7 @@ struct Axis {
     WhyKeeper keeper;
 };
 
+// V_IST counts 10 rpm as 1.31072 (001 section 3.2.12): 60 are 457.8 rpm.
 TEST(WhyKeeper, TellsTheVelocityOfTheMotionAndNotThatBeforeIt) {
     Axis axis;
     axis.survey(0, 0);
@@ -65,23 +66,23 @@ TEST(WhyKeeper, TellsTheVelocityOfTheMotionAndNotThatBeforeIt) {
     axis.begin_motion();
     EXPECT_EQ(axis.first(), "moves: It moves.");
     axis.at(kBegin + 200ms);
-    axis.read(MotorItem::velocity, 1'000);
+    axis.read(MotorItem::velocity, 60);
     const std::string told = axis.first();
-    EXPECT_EQ(told.find("moves: It moves: V_IST 47"), 0U) << told;
-    axis.read(MotorItem::velocity, 1'050);
+    EXPECT_EQ(told.find("moves: It moves: V_IST 457.8 rpm"), 0U) << told;
+    axis.read(MotorItem::velocity, 63);
     EXPECT_EQ(axis.first(), told) << "not another text for each read";
-    axis.read(MotorItem::velocity, 2'000);
-    EXPECT_EQ(axis.first().find("moves: It moves: V_IST 95"), 0U) << axis.first();
+    axis.read(MotorItem::velocity, 120);
+    EXPECT_EQ(axis.first().find("moves: It moves: V_IST 915.5 rpm"), 0U) << axis.first();
     axis.read(MotorItem::velocity, 0);
     EXPECT_EQ(axis.first(), "moves: It moves.");
 }
 
 TEST(WhyKeeper, ASurveyOfAMotionIsNotToldOfAnAxisThatStands) {
     Axis axis;
-    axis.survey(5'000, 1'000);
+    axis.survey(5'000, 60);
     axis.begin_motion();
-    axis.read(MotorItem::velocity, 1'000);
-    EXPECT_EQ(axis.first().find("moves: It moves: V_IST 47"), 0U) << axis.first();
+    axis.read(MotorItem::velocity, 60);
+    EXPECT_EQ(axis.first().find("moves: It moves: V_IST 457.8 rpm"), 0U) << axis.first();
     axis.at(kBegin + 500ms);
     axis.image.moves = false;
     axis.read(MotorItem::position, 9'000);

@@ -110,9 +110,10 @@ TEST(LastingMotion, AMoveThatIsNeededOnOneWayIsTakenOutOnNone) {
                guard +
                "\nPOWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
                "STEP Idle: IF R_TRIG(IN0) THEN NEXT := Go; END_IF END_STEP\n"
-               "STEP Go: ENTRY POSITION(Near); IF INPOS WITHIN T#9s THEN NEXT := Out; ELSE NEXT := Fault; "
+               "STEP Go: ENTRY POSITION(Near); IF INPOS WITHIN T#9s THEN NEXT := Onward; ELSE NEXT := Fault; "
                "END_IF END_STEP\n"
-               "STEP Out: ENTRY POSITION(Far); IF INPOS WITHIN T#9s THEN NEXT := There; ELSE NEXT := Fault; "
+               "STEP Onward: ENTRY POSITION(Far); IF INPOS WITHIN T#9s THEN NEXT := There; ELSE NEXT := "
+               "Fault; "
                "END_IF END_STEP\n"
                "STEP There: IF R_TRIG(IN3) THEN NEXT := Lift; END_IF END_STEP\n"
                "STEP Lift: ENTRY POSITION(Far); IF INPOS AND R_TRIG(IN4) THEN NEXT := Idle; END_IF "
@@ -132,8 +133,8 @@ TEST(LastingMotion, ASelectionThatChangesTheModeStartsTowardsAnOldTarget) {
                "STEP Idle: IF R_TRIG(IN0) THEN NEXT := Run; END_IF END_STEP\n"
                "STEP Run: ENTRY " +
                first + "; IF R_TRIG(IN2) THEN " + then +
-               "; NEXT := On; END_IF END_STEP\n"
-               "STEP On: IF R_TRIG(IN3) THEN INIT(Fast); NEXT := Idle; END_IF END_STEP\n" +
+               "; NEXT := Turned; END_IF END_STEP\n"
+               "STEP Turned: IF R_TRIG(IN3) THEN INIT(Fast); NEXT := Idle; END_IF END_STEP\n" +
                kInitFault;
     };
     const auto is_refused = [&](const std::string& first, const std::string& then) {

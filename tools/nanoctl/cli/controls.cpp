@@ -9,14 +9,21 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-void tell_state(Session& session, const Status& status) {
-    session.tell(fmt::format("{}, step {}", name_of(status.run_state), session.names().step(status.step)),
-                 {{"state", name_of(status.run_state)}, {"step", status.step}});
+void tell_state(Session& session, const Status& status, std::string_view rest = "") {
+    session.tell(
+        fmt::format("{}, step {}{}", name_of(status.run_state), session.names().step(status.step), rest),
+        {{"state", name_of(status.run_state)}, {"step", status.step}});
 }
 
 void start(Session& session) {
     session.gateway().command(gw::Command::run);
-    tell_state(session, session.status());
+    const Status status = session.status();
+    const bool is_alone =
+        status.run_state == gw::RunState::waiting_for_motor && !status.has(gw::kLinkDelivers);
+    tell_state(session, status,
+               is_alone
+                   ? "; it does not answer: the sequence starts as soon as it does, nanoctl stop ends that"
+                   : "");
 }
 
 void activate(Session& session) {
