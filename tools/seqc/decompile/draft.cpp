@@ -14,7 +14,7 @@ constexpr std::ptrdiff_t kEnoughForOnError = 2;  // steps
 const Action kNoAction{};
 
 /// The step that a term switches to.
-std::optional<std::uint8_t> target_of(const sequencer::Term& term) {
+std::optional<std::uint8_t> switches_to(const sequencer::Term& term) {
     const bool switches = !term.is_flex && term.fast.next_step < sequencer::kLastStep;
     return switches ? std::optional(term.fast.next_step) : std::nullopt;
 }
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> Drafter::voted_outputs() const {
             const sequencer::Term term = sequencer::decode(bytes);
             if (term.is_flex) continue;
             const std::uint8_t from = term.condition.step;
-            const std::size_t to = target_of(term).value_or(from);
+            const std::size_t to = switches_to(term).value_or(from);
             const std::uint8_t outputs = term.fast.outputs;
             if (to != from) {
                 ++votes[to][outputs];
@@ -165,7 +165,7 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
     // A TERM states all of its effects.
     const auto add_terms = [&](const Terms& terms, std::size_t first) {
         for (std::size_t i = first; i < terms.size(); ++i) {
-            if (target_of(sequencer::decode(terms[i])) == step) ways.push_back(&kNoAction);
+            if (switches_to(sequencer::decode(terms[i])) == step) ways.push_back(&kNoAction);
         }
     };
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
@@ -217,7 +217,7 @@ void Drafter::note_outputs(Draft& draft) const {
     const auto agree = [&](const Terms& terms, std::uint8_t step) {
         return std::all_of(terms.begin(), terms.end(), [&](const TermBytes& bytes) {
             const sequencer::Term term = sequencer::decode(bytes);
-            return target_of(term) != step || term.fast.outputs == draft.around.outputs[step];
+            return switches_to(term) != step || term.fast.outputs == draft.around.outputs[step];
         });
     };
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {

@@ -10,9 +10,6 @@
 namespace nplc::seqc {
 namespace {
 
-using table::CounterChange;
-using table::Outcome;
-
 std::uint8_t resting_in(std::size_t c, const StepPlan& step) {
     std::uint8_t outputs = step.outputs;
     for (const ConditionalOutput& conditional : step.conditional) {
@@ -22,16 +19,17 @@ std::uint8_t resting_in(std::size_t c, const StepPlan& step) {
 }
 
 /// What a rule asks for, or no rule, in every case in which it is true; the outputs only if it leaves.
-Outcome wanted_of(const Action& action, const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
-    Outcome wanted;
+table::Outcome wanted_of(const Action& action, const StepPlan& step,
+                         const std::vector<std::uint8_t>& outputs_of) {
+    table::Outcome wanted;
     wanted.next = action.next.value_or(step.number);
     if (wanted.next != step.number) wanted.outputs = outputs_entered(action, outputs_of);
     wanted.timer = action.timer.value_or(0);
     wanted.counter_preset = action.clears_counter ? std::uint16_t{0} : action.counter.value_or(0);
-    wanted.counter = action.clears_counter        ? CounterChange::clear
-                     : wanted.counter_preset != 0 ? CounterChange::preset
-                     : action.counts_down         ? CounterChange::count_down
-                                                  : CounterChange::none;
+    wanted.counter = action.clears_counter        ? table::CounterChange::clear
+                     : wanted.counter_preset != 0 ? table::CounterChange::preset
+                     : action.counts_down         ? table::CounterChange::count_down
+                                                  : table::CounterChange::none;
     for (const Send& send : action.sends) wanted.orders.push_back(order_of(send));
     return wanted;
 }
@@ -39,13 +37,13 @@ Outcome wanted_of(const Action& action, const StepPlan& step, const std::vector<
 /// Whether the outcome is what is wanted, outputs apart: by the number of either.
 class Comparison {
   public:
-    Comparison(const std::vector<Outcome>& wanted, const std::vector<Outcome>& done)
+    Comparison(const std::vector<table::Outcome>& wanted, const std::vector<table::Outcome>& done)
         : wanted_(wanted), done_(done), known_(wanted.size() * done.size()) {}
 
     bool is_same(std::size_t wanted, std::size_t done) {
         auto& known = known_[wanted * done_.size() + done];
         if (!known) {
-            Outcome other = done_[done];
+            table::Outcome other = done_[done];
             other.outputs = wanted_[wanted].outputs;
             known = other == wanted_[wanted];
         }
@@ -53,8 +51,8 @@ class Comparison {
     }
 
   private:
-    const std::vector<Outcome>& wanted_;
-    const std::vector<Outcome>& done_;
+    const std::vector<table::Outcome>& wanted_;
+    const std::vector<table::Outcome>& done_;
     std::vector<std::optional<bool>> known_;
 };
 
@@ -69,7 +67,7 @@ std::optional<std::size_t> first_difference(const StepPlan& step, const std::vec
     }
     const table::Step done = table::step_of(step.number, own);
 
-    std::vector<Outcome> wanted = {wanted_of({}, step, outputs_of)};
+    std::vector<table::Outcome> wanted = {wanted_of({}, step, outputs_of)};
     std::array<std::uint16_t, kCases> rule_in{};  // index into `wanted`
     for (const Rule& rule : step.rules) {
         for (std::size_t c = rule.when._Find_first(); c < kCases; c = rule.when._Find_next(c))
@@ -78,7 +76,7 @@ std::optional<std::size_t> first_difference(const StepPlan& step, const std::vec
     }
     Comparison comparison(wanted, done.outcomes);
     for (std::size_t c = 0; c < kCases; ++c) {
-        const Outcome& want = wanted[rule_in[c]];
+        const table::Outcome& want = wanted[rule_in[c]];
         const std::optional<std::uint8_t> outputs = done.in(c).outputs;
         const bool must_write = want.outputs || !step.conditional.empty();
         const std::uint8_t wanted_outputs = want.outputs ? *want.outputs : resting_in(c, step);

@@ -5,9 +5,7 @@
 namespace nplc::seqc {
 namespace {
 
-using table::Outcome;
-
-KnownOutputs after(const Outcome& outcome, const KnownOutputs& before) {
+KnownOutputs after(const table::Outcome& outcome, const KnownOutputs& before) {
     return outcome.outputs ? KnownOutputs{kAllOutputs, *outcome.outputs} : before;
 }
 
@@ -25,12 +23,12 @@ class Walk {
         while (!open_.empty()) {
             const std::uint8_t step = open_.back();
             open_.pop_back();
-            for (const Outcome& outcome : machine_.steps[step].outcomes) follow(step, outcome);
+            for (const table::Outcome& outcome : machine_.steps[step].outcomes) follow(step, outcome);
         }
     }
 
   private:
-    void follow(std::uint8_t step, const Outcome& outcome) {
+    void follow(std::uint8_t step, const table::Outcome& outcome) {
         const KnownOutputs outputs = after(outcome, machine_.held[step]);
         if (outcome.next != step) arrive(outcome.next, outputs, machine_.entered_with, machine_.reachable);
         arrive(outcome.next, outputs, machine_.held, held_);
@@ -61,7 +59,7 @@ Machine machine_of(std::span<const std::uint8_t> table) {
         machine.steps[step] = table::step_of(step, terms);
         if (machine.steps[step].terms == 0) continue;
         machine.used.set(step);
-        for (const Outcome& outcome : machine.steps[step].outcomes) machine.used.set(outcome.next);
+        for (const table::Outcome& outcome : machine.steps[step].outcomes) machine.used.set(outcome.next);
     }
     Walk walk(machine);
     return machine;
@@ -80,7 +78,7 @@ struct Writes {
 Writes writes_of(const table::Step& behaviour, std::uint8_t bit) {
     Writes writes;
     for (std::size_t c = 0; c < kCases; ++c) {
-        const Outcome& outcome = behaviour.in(c);
+        const table::Outcome& outcome = behaviour.in(c);
         if (outcome.next != behaviour.number) {
             writes.leaves.set(c);
         } else if (!outcome.outputs) {
@@ -112,14 +110,14 @@ void add_rules(const Machine& machine, std::uint8_t step, std::uint8_t bit, std:
 /// A transition into a step.
 struct Way {
     std::uint8_t from = 0;
-    const Outcome* outcome = nullptr;
+    const table::Outcome* outcome = nullptr;
 };
 
 std::vector<Way> ways_into(const Machine& machine, std::uint8_t step) {
     std::vector<Way> ways;
     for (std::uint8_t from = 0; from < kStepNumbers; ++from) {
         if (from == step) continue;
-        for (const Outcome& outcome : machine.steps[from].outcomes) {
+        for (const table::Outcome& outcome : machine.steps[from].outcomes) {
             const bool is_known = std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
                 return way.from == from && *way.outcome == outcome;
             });
@@ -148,11 +146,11 @@ Entry entry_of(const Machine& machine, std::uint8_t step) {
     const bool from_others =
         std::any_of(ways.begin(), ways.end(), [](const Way& way) { return way.from != 0; });
     if (ways.size() < 2 || !from_others) return {};
-    const Outcome& first = *ways.front().outcome;
+    const table::Outcome& first = *ways.front().outcome;
     std::size_t common = first.orders.size();
     Entry entry{.orders = {}, .timer = first.timer, .counter_preset = first.counter_preset};
     for (const Way& way : ways) {
-        const Outcome& outcome = *way.outcome;
+        const table::Outcome& outcome = *way.outcome;
         common = std::min(common, common_length(first.orders.rbegin(), first.orders.rend(),
                                                 outcome.orders.rbegin(), outcome.orders.rend()));
         if (outcome.timer != entry.timer) entry.timer = 0;
@@ -163,9 +161,9 @@ Entry entry_of(const Machine& machine, std::uint8_t step) {
 }
 
 std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
-    const Outcome* first = nullptr;
+    const table::Outcome* first = nullptr;
     std::size_t common = 0;
-    for (const Outcome& outcome : machine.steps[0].outcomes) {
+    for (const table::Outcome& outcome : machine.steps[0].outcomes) {
         if (outcome.next == 0) continue;
         if (first == nullptr) {
             first = &outcome;
@@ -183,7 +181,7 @@ std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
 namespace {
 
 /// The part of an outcome that distinguishes reactions.
-Reaction reaction_for(const Machine& machine, std::uint8_t step, const Outcome& outcome) {
+Reaction reaction_for(const Machine& machine, std::uint8_t step, const table::Outcome& outcome) {
     Reaction reaction{.when = {}, .outcome = outcome};
     const bool leaves = outcome.next != step;
     if (leaves && outcome.outputs)
@@ -222,7 +220,7 @@ std::vector<Reaction> reactions_of(const Machine& machine, std::uint8_t step) {
     const table::Step& behaviour = machine.steps[step];
     std::vector<Reaction> merged;
     std::vector<std::size_t> index_of;  // by outcome
-    for (const Outcome& outcome : behaviour.outcomes) {
+    for (const table::Outcome& outcome : behaviour.outcomes) {
         const Reaction reaction = reaction_for(machine, step, outcome);
         const auto found = std::find_if(merged.begin(), merged.end(),
                                         [&](const Reaction& r) { return is_same(r, reaction); });
