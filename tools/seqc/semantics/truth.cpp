@@ -4,7 +4,7 @@
 
 namespace nplc::seqc {
 
-const Truth& truth_of_bit(std::size_t bit) {
+Truth truth_of_bit(std::size_t bit) {
     return table::cases_with(static_cast<unsigned>(bit));
 }
 

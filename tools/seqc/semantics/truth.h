@@ -22,7 +22,7 @@ inline constexpr std::size_t kCases = 1U << kBits;
 /// A condition as the set of cases in which it is true.
 using Truth = std::bitset<kCases>;
 
-const Truth& truth_of_bit(std::size_t bit);
+Truth truth_of_bit(std::size_t bit);
 inline Truth always() {
     return Truth().set();
 }
