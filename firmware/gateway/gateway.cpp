@@ -275,17 +275,19 @@ void Gateway::hold_when_settled(base::Instant now) {
 }
 
 /// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged the
-/// error.
+/// error. The motor is told to stop at once, for it may hear though it is not heard, and again when the link
+/// is back: the first stop may have been given up.
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = motor_.link();
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
     if (!motor::delivers(link)) {
+        if (!stop_after_loss_) watch_new_stop();
         stop_after_loss_ = true;
         scan_.mode().set_passive();
         return;
     }
     if (stop_after_loss_) {
-        stop_motor();
+        watch_new_stop();
         stop_after_loss_ = false;
     }
     if (link == motor::Link::up && safe_reason() == SafeReason::link_down) {
@@ -313,6 +315,11 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     scan_.abort();
     hold_.set(After::never);
     set_safe_reason(reason, now);
+    watch_new_stop();
+}
+
+/// The log tells when the motor has confirmed it.
+void Gateway::watch_new_stop() {
     stop_motor();
     stop_watched_ = true;
 }

@@ -169,7 +169,7 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
 }
 
 void UserPort::begin_motor(const Request& request, base::Instant now) {
-    if (is_stop(request) && gateway_.run_state() != RunState::stopped) gateway_.stop(now);
+    if (is_stop(request)) gateway_.stop(now);
     if (!motor_allows(request)) {
         if (is_modbus_) modbus_.refuse(Result::not_allowed);
         return refuse();

@@ -15,6 +15,8 @@ constexpr std::uint8_t kMostResends = 3;
 /// so 2 is the minimum.
 constexpr std::uint8_t kProofBytes = 3;
 constexpr std::uint8_t kStrangeBytes = 4;
+/// Number of status bytes in a row that show, before FlexMAC is left, that the last echo was none.
+constexpr std::uint8_t kFalseEchoBytes = 2;
 constexpr int kReadsPerPoll = 1024;  // more than any port buffers
 constexpr base::Microseconds kTick{1};
 
@@ -93,7 +95,7 @@ void JvlLink::forget(base::Instant now) {
     filter_.forget();
     replies_.abandon();
     expect_ = Expect::nothing;
-    accepted_ = synchronized_ = false;
+    accepted_ = synchronized_ = echo_was_false_ = false;
     size_ = sent_ = 0;
     strange_shown_ = 0;
     reads_ = false;
@@ -193,11 +195,19 @@ void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
     const bool is_old = busy() && on_the_line_ && now - left_at_ >= patience() && shows_old(seen);
     old_shown_ = is_old ? bump(old_shown_) : std::uint8_t{0};
     strange_shown_ = in_step(seen) ? std::uint8_t{0} : bump(strange_shown_);
+    denied_ = denies_echo(seen) ? bump(denied_) : std::uint8_t{0};
+    if (denied_ >= kFalseEchoBytes) echo_was_false_ = true;
     if (is_done()) settle(now);
 }
 
 bool JvlLink::shows_old(const Status& seen) const {
     return expect_ == Expect::leave_flexmac ? seen.flexmac : seen.toggle == toggle_;
+}
+
+/// It was sent before the motor had the message that leaves FlexMAC, and shows the toggle from before the one
+/// that was taken for accepted.
+bool JvlLink::denies_echo(const Status& seen) const {
+    return expect_ == Expect::leave_flexmac && !on_the_line_ && seen.flexmac && seen.toggle != toggle_;
 }
 
 bool JvlLink::is_done() const {
@@ -231,6 +241,7 @@ bool JvlLink::in_step(const Status& seen) const {
         case Expect::toggle:
             return seen.flexmac == flexmac_;
         case Expect::enter_flexmac:
+            return true;
         case Expect::leave_flexmac:
             return true;
     }
@@ -240,6 +251,7 @@ bool JvlLink::in_step(const Status& seen) const {
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (synchronized_ && listening_.too_late)
         return Result::silent;  // even if accepted: orders queued behind it would be late
+    if (echo_was_false_) return Result::out_of_step;
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
     if (now - last_status_ > longest_silence()) return Result::silent;

@@ -81,6 +81,7 @@ void JvlMotor::lose_link(base::Instant now) {
         ++losses_;
     }
     access_.fail_open();
+    if (stop_unproven_) stop();
     was_up_ = safe_now_ = slowed_ = holds_ = is_aside_ = false;
     reply_until_.reset();
     sending_ = Sending::nothing;
@@ -104,6 +105,7 @@ void JvlMotor::on_accepted(base::Instant now) {
             break;
         case Sending::stop:
             stop_wanted_ = false;
+            stop_unproven_ = true;
             hold_in_position();
             break;
         case Sending::access:
@@ -115,6 +117,7 @@ void JvlMotor::on_accepted(base::Instant now) {
             hold_in_position();
             break;
     }
+    if (!link_.flexmac()) stop_unproven_ = false;
     if (is_up() && !was_up_) {
         was_up_ = true;
         safe_now_ = safe_communication_;
@@ -290,6 +293,7 @@ void JvlMotor::stop() {
     orders_.discard_waiting();
     access_.fail_waiting();
     stop_wanted_ = true;
+    stop_unproven_ = false;
     blind_stop_.begin_anew();
 }
 

@@ -153,6 +153,23 @@ TEST_F(AxisStoreTest, ACrashWaitsThroughAnyNumberOfOrderlyStarts) {
     EXPECT_EQ(start_and_end(), given);
 }
 
+// Lost, another axis's or blank while the service runs once and ends in order; then the copy is put back.
+TEST_F(AxisStoreTest, ACrashIsNotForgottenByWayOfAnotherStore) {
+    command_run_once("b");
+    command_run_once();
+    const std::string own = content(store());
+    for (const std::string& other : {std::string(), content(store("b")), std::string(own.size(), '\xFF')}) {
+        start();  // and no end: it is killed
+        other.empty() ? static_cast<void>(fs::remove(store())) : write(store(), other);
+        EXPECT_NE(start_and_end(), given);
+        write(store(), own);
+        EXPECT_EQ(start_and_end(), after_crash);
+        EXPECT_EQ(start_and_end(), after_crash);
+        command_run_once();
+        EXPECT_EQ(start_and_end(), given);
+    }
+}
+
 TEST_F(AxisStoreTest, AWatchdogsResetToo) {
     command_run_once();
     EXPECT_EQ(start_and_end({.by_watchdog = true}), given) << "it is over: a run has ended in this boot";

@@ -182,7 +182,19 @@ TEST_F(PortSafety, AModeOfZeroAtTheMotorsAddressIsAStop) {
         EXPECT_EQ(read(reg::SAFE_REASON), static_cast<std::uint32_t>(SafeReason::stop_command));
         EXPECT_EQ(board.stops, 1);
         EXPECT_TRUE(write(registers::MODE_REG, 0, 2, kMotor)) << "the motor's own register again";
+        EXPECT_EQ(board.stops, 2) << "somebody's writes may have set the motor in motion";
     }
+}
+
+TEST_F(PortSafety, AModeOfZeroThatTheMotorDoesNotConfirmKeepsASequenceFromStarting) {
+    start({.autostart = false});
+    ASSERT_TRUE(upload_and_activate(kTable));
+    board.stop_is_confirmed = false;
+    write(registers::MODE_REG, 0, 2, kMotor);
+    EXPECT_FALSE(command(Command::run));
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    board.stop_is_confirmed = true;
+    EXPECT_TRUE(command(Command::run));
 }
 
 TEST_F(PortSafety, ASettingAllowsMotorWritesWhileItRuns) {

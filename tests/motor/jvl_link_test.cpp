@@ -174,7 +174,7 @@ TEST_F(LinkTest, LeavingFlexMacIsRepeatedWhileBit3Stays) {
     in_step(0x08);
     measure_flexmac_echo();
     link.leave_flexmac(motor.now);
-    motor.hear_times(3, 0x08);
+    motor.hear_times(8, 0x08);
     line.take();
     hear_until_sent(0x88, 200);
     EXPECT_EQ(line.take(), (Bytes{0x7E, 0x7E, 0x7E})) << "7Fh is never tried instead";

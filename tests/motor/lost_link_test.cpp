@@ -115,6 +115,8 @@ TEST_F(LostLink, AStopOrderedMeanwhileIsSentBlindAndIsTheFirstThingDelivered) {
     EXPECT_FALSE(driver.stop_confirmed()) << "the link is up; the stop was not taken yet";
     exchange({0xFF, 0xFF}, 0x10, 0x98);
     exchange({0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF}, 0x98, 0x18);
+    EXPECT_FALSE(driver.stop_confirmed()) << "two damaged status bytes look the same";
+    exchange({0x7E, 0x7E, 0x7E}, 0x18, 0x90);
     EXPECT_TRUE(driver.stop_confirmed());
 }
 

@@ -64,12 +64,15 @@ struct UnechoedStop : MotorTest {
     Obstinate peer;
     std::size_t taken = 0;
 
+    /// `damage`: of the status byte.
+    void pass_one(std::uint8_t damage = 0) {
+        motor.hear(peer.status() ^ damage);
+        const std::size_t left = line.sent.size() - line.in_transmitter;
+        taken < left ? peer.take(line.sent[taken++]) : peer.pause();
+    }
     void pass(int milliseconds) {
-        for (const base::Instant end = motor.now + base::Milliseconds(milliseconds); motor.now < end;) {
-            motor.hear(peer.status());
-            const std::size_t left = line.sent.size() - line.in_transmitter;
-            taken < left ? peer.take(line.sent[taken++]) : peer.pause();
-        }
+        for (const base::Instant end = motor.now + base::Milliseconds(milliseconds); motor.now < end;)
+            pass_one();
     }
 };
 
@@ -93,6 +96,30 @@ TEST_F(UnechoedStop, StaysUnconfirmedThoughAllElseIsTaken) {
     ASSERT_TRUE(driver.begin_access({.reg = registers::V_IST}));
     pass(50);
     EXPECT_EQ(peer.reads, 1);
+}
+
+// Bit 7 of two status bytes is damaged alike, just when the echo is due: the bytes behind them show it.
+TEST_F(UnechoedStop, IsNotConfirmedByDamagedStatusBytes) {
+    for (const int behind : {0, 1, 2, 4}) {
+        pass(200);
+        ASSERT_EQ(driver.link(), Link::up);
+        driver.stop();
+        const int stops = peer.stops;
+        while (peer.stops == stops) pass_one();
+        const std::uint32_t losses = driver.counters().link_losses;
+        for (int i = 0; i < behind; ++i) pass_one();
+        for (int i = 0; i < 2; ++i) pass_one(0x80);
+        for (int i = 0; i < 60; ++i) {
+            pass_one();
+            ASSERT_FALSE(driver.stop_confirmed()) << behind << " bytes behind, " << i;
+        }
+        EXPECT_GT(driver.counters().link_losses, losses);
+        peer.obeys = true;
+        pass(2'000);
+        EXPECT_TRUE(driver.stop_confirmed());
+        driver.send({.command = protocol::fastmac::command_byte(protocol::fastmac::Number::reset_error)});
+        peer.obeys = false;
+    }
 }
 
 }  // namespace

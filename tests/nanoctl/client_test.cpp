@@ -192,6 +192,27 @@ TEST(Client, AStopThatIsNotConfirmedSaysThatTheMachineMayStillBeRunning) {
     }
 }
 
+// The sequence does not run, and somebody's writes have set the motor in motion.
+TEST(Client, AStopOfAStoppedSequenceIsSentUntilItHasArrived) {
+    for (const Command command : {Command::stop, Command::safe}) {
+        Bench bench;
+        bench.run_a_table();
+        stop_machine(bench.gateway, Command::stop);
+        const int before = bench.unit.board.stops;
+        bench.unit.ignores = 10;
+        EXPECT_EQ(stop_machine(bench.gateway, command).run_state, gw::RunState::stopped);
+        EXPECT_GT(bench.unit.board.stops, before);
+    }
+}
+
+TEST(Client, AHoldBehindAnUnconfirmedStopSaysThatTheMachineMayStillBeRunning) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.stop_takes = std::chrono::seconds{60};
+    EXPECT_THROW(stop_machine(bench.gateway, Command::stop), NotConfirmed);
+    EXPECT_THROW(stop_machine(bench.gateway, Command::hold), NotConfirmed);
+}
+
 TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
     Bench bench;
     bench.run_a_table();

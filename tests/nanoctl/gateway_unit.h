@@ -20,7 +20,8 @@ class GatewayUnit final : public mactalk_client::Unit {
     }
 
     void receive(std::uint8_t byte, bool framing_error, base::Instant /*now*/) override {
-        port_.received.push_back({byte, framing_error});
+        if (ignores == 0) return port_.received.push_back({byte, framing_error});
+        --ignores;
     }
     std::optional<std::uint8_t> transmit(base::Instant /*now*/) override {
         if (port_.waiting.empty()) return std::nullopt;
@@ -56,7 +57,8 @@ class GatewayUnit final : public mactalk_client::Unit {
 
     gateway::BenchBoard board;
     sim::SimStorage storage;
-    std::size_t loses = 0;  ///< bytes that it sends next
+    std::size_t loses = 0;    ///< bytes that it sends next
+    std::size_t ignores = 0;  ///< bytes that it receives next
 
   private:
     struct Port final : ports::SerialPort {

@@ -125,10 +125,10 @@ class DisturbedRun {
         return false;
     }
 
-    /// Off for longer than the driver's limit of silence.
+    /// Off for longer than the driver's limit of silence: 20 ms and up to 40 ms by which the line is late.
     void cycle_power() {
         world_.power_motor(false);
-        go_on(Time(1'000'000 * static_cast<std::int64_t>(25 + dice_.below(50))));
+        go_on(Time(1'000'000 * static_cast<std::int64_t>(65 + dice_.below(50))));
         world_.power_motor(true);
     }
 

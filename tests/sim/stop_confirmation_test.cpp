@@ -16,12 +16,12 @@ using gateway::Event;
 using gateway::RunState;
 using registers::MODE_REG;
 
-struct StopConfirmation : testing::TestWithParam<bool> {
-    StopConfirmation() : world(turning_table(), options()) {}
+struct Bench {
+    explicit Bench(bool is_safe) : world(turning_table(), options(is_safe)) {}
 
-    static WorldOptions options() {
+    static WorldOptions options(bool is_safe) {
         WorldOptions options;
-        options.safe_communication = GetParam();
+        options.safe_communication = is_safe;
         return options;
     }
     void run_for(Time time) {
@@ -60,6 +60,10 @@ struct StopConfirmation : testing::TestWithParam<bool> {
     }
 
     World world;
+};
+
+struct StopConfirmation : testing::TestWithParam<bool>, Bench {
+    StopConfirmation() : Bench(GetParam()) {}
 };
 
 TEST_P(StopConfirmation, ComesAtOnceOnALineInOrder) {
@@ -112,6 +116,35 @@ TEST_P(StopConfirmation, NeverComesFromAMotorThatIsNotHeard) {
     EXPECT_TRUE(world.controller().sequence().run().ok());
 }
 
+// Nobody has asked for a stop: the safe state of a lost link does.
+TEST_P(StopConfirmation, IsWantedAsSoonAsTheLinkIsLost) {
+    turn();
+    lose(false, true, 1);
+    run_for(1s);
+    EXPECT_EQ(controller().run_state(), RunState::running);
+    EXPECT_EQ(controller().safe_reason(), gateway::SafeReason::link_down);
+    EXPECT_EQ(reg(MODE_REG), 0) << "told without an answer";
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    lose(false, true, 0);
+    run_for(1s);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(count(Event::stop_confirmed), 1);
+}
+
+// Given up while the line is cut: the motor is told once more as soon as it hears.
+TEST_P(StopConfirmation, IsWantedAnewWhenALostLinkIsBack) {
+    turn();
+    world.cut_line(true);
+    run_for(500ms);
+    world.controller().sequence().give_up_stop();
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(reg(MODE_REG), 1) << "it turns on";
+    world.cut_line(false);
+    run_for(1s);
+    EXPECT_EQ(reg(MODE_REG), 0);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+}
+
 // Its status bytes run on, valid and equal: they prove nothing.
 TEST_P(StopConfirmation, NeverComesFromAMotorThatDoesNotHear) {
     turn();
@@ -125,6 +158,31 @@ TEST_P(StopConfirmation, NeverComesFromAMotorThatDoesNotHear) {
     run_for(1s);
     EXPECT_EQ(reg(MODE_REG), 0);
     EXPECT_FALSE(controller().stop_unconfirmed());
+}
+
+// Two damaged status bytes in a row look like an echo while the motor has heard nothing.
+TEST_P(StopConfirmation, IsNotMadeOfDamagedStatusBytes) {
+    int confirmed = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        Bench bench(GetParam());
+        bench.world.seed(seed);
+        bench.turn();
+        action::SpoilLine faults;
+        faults.to_motor = true;
+        faults.drop = 0.05;
+        bench.world.spoil_line(faults);
+        faults = {};
+        faults.from_motor = true;
+        faults.damage = 0.05;
+        bench.world.spoil_line(faults);
+        bench.stop();
+        const Time end = bench.world.now() + 500ms;
+        while (bench.world.now() < end && bench.controller().stop_unconfirmed()) bench.world.step(end);
+        if (bench.controller().stop_unconfirmed()) continue;
+        ++confirmed;
+        EXPECT_TRUE(bench.reg(MODE_REG) == 0 || bench.reg(MODE_REG) == 11) << "seed " << seed;
+    }
+    EXPECT_GT(confirmed, 50);
 }
 
 TEST_P(StopConfirmation, IsWaitedForAfterACutLineToo) {

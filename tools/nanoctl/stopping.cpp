@@ -26,9 +26,12 @@ class Stopping {
         for (;;) {
             const auto status = is_asked_ ? look() : send_and_look();
             if (status && is_done(*status)) return *status;
-            if (status && is_idle(*status))
+            if (status && is_idle(*status)) {
+                if (status->has(gw::kStopUnconfirmed))
+                    unconfirmed("the sequence does not run, but the motor has not confirmed the last stop");
                 throw Refused(gw::Result::not_running, gw::COMMAND, 0,
                               fmt::format("hold: {}", gw::describe(gw::Result::not_running)));
+            }
             if (now() - begun_ >= kLongestStop) fail(status);
             gateway_.look_for_interruption();
         }
@@ -60,22 +63,33 @@ class Stopping {
     }
 
     bool is_done(const Status& status) {
+        was_told_ = was_told_ || !is_ordered(status) || status.has(gw::kStopUnconfirmed);
         if (!is_ordered(status)) {
             if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
             return false;
         }
         if (!ordered_at_) ordered_at_ = now();
         const bool delivers = status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
-        if (delivers && !status.has(gw::kStopUnconfirmed)) return true;
+        if (delivers && !status.has(gw::kStopUnconfirmed)) {
+            if (was_told_) return true;
+            was_told_ = is_asked_ = gateway_.master().try_write(gateway_.address(), gw::COMMAND,
+                                                                static_cast<std::uint32_t>(command_),
+                                                                mactalk_client::Width::longword);
+            return false;
+        }
         if (now() - *ordered_at_ >= GatewayClient::kConfirmationWait)
-            throw NotConfirmed(fmt::format(
-                "{}: the sequence is {}, but {}: {}", name_of(command_), name_of(status.run_state),
-                delivers ? "the motor has not confirmed the stop"
-                         : "the link to the motor is down and the motor could not be told",
-                kMayStillRun));
+            unconfirmed(fmt::format("the sequence is {}, but {}", name_of(status.run_state),
+                                    delivers
+                                        ? "the motor has not confirmed the stop"
+                                        : "the link to the motor is down and the motor could not be told"));
         gateway_.master().pause(kBetweenLooks);
         return false;
     }
+
+    [[noreturn]] void unconfirmed(std::string_view why) const {
+        throw NotConfirmed(fmt::format("{}: {}: {}", name_of(command_), why, kMayStillRun));
+    }
+
     bool is_idle(const Status& status) const { return holds() && status.run_state == gw::RunState::stopped; }
 
     [[noreturn]] void fail(const std::optional<Status>& status) const {
@@ -91,7 +105,9 @@ class Stopping {
     GatewayClient& gateway_;
     gw::Command command_;
     base::Instant begun_;
-    bool is_asked_ = false;                    ///< the gateway has received it, and waits for the motor
+    bool is_asked_ = false;  ///< the gateway has received it, and waits for the motor
+    /// A stop was received since it was asked. Of a gateway that had stopped before only an accept shows it.
+    bool was_told_ = false;
     std::optional<base::Instant> ordered_at_;  ///< first confirmation that the gateway has received it
 };
 

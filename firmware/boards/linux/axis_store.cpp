@@ -116,6 +116,7 @@ std::string AxisStore::replace_lost_store(const std::string& path) {
 /// A watchdog reset no longer counts once a run has ended in order since then.
 bool AxisStore::is_after_crash(const BoardStart& board) {
     if (!was_cut_off(board)) return false;
+    is_after_crash_ = true;
     if (permission_ == AutostartPermission::given) permission_ = AutostartPermission::after_crash;
     return true;
 }
@@ -159,12 +160,18 @@ std::optional<std::string> AxisStore::give_permission(base::Instant now) {
     if (!outcome && now - *asked_ < kLongestWrite) return std::nullopt;
     asked_.reset();
     if (!outcome) return "the store takes longer than 1 s to be written";
-    if (outcome->empty()) permission_ = AutostartPermission::given;
+    if (outcome->empty()) {
+        permission_ = AutostartPermission::given;
+        is_after_crash_ = false;
+    }
     return outcome;
 }
 
+/// A crash is kept in the mark too until somebody commands run: another store may be put in the place of this
+/// one.
 std::string AxisStore::mark_ended() {
-    return storage_ ? marker_->clear() : std::string();
+    if (!storage_) return {};
+    return is_after_crash_ ? marker_->note_crash() : marker_->clear();
 }
 
 std::string AxisStore::mark_crashed() {

@@ -45,6 +45,7 @@ class AxisStore {
     /// Somebody has commanded run: what says so is written beside everything else, for a second at the most.
     /// To be called until it is answered: empty, and the permission is given; or why it is not, one line.
     std::optional<std::string> give_permission(base::Instant now);
+    /// An orderly end. One before which a crash has not been answered by run keeps the crash.
     std::string mark_ended();
     /// The end is not orderly: the motor may be moving.
     std::string mark_crashed();
@@ -64,6 +65,7 @@ class AxisStore {
     std::optional<StoreOwner> owner_;
     AutostartPermission permission_ = AutostartPermission::first_run;
     bool is_marked_ = true;
+    bool is_after_crash_ = false;  ///< and nobody has commanded run since
     std::optional<base::Instant> asked_;  ///< when the permission was
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;

@@ -203,6 +203,7 @@ class Gateway {
     void serve_sequence(base::Instant now);
     void scan(base::Instant now);
     void stop_motor();
+    void watch_new_stop();
     void watch_stop();
     void leave_safe_state();
     void begin_hold(bool breakpoint, base::Instant now);
@@ -228,7 +229,7 @@ class Gateway {
     RunState run_state_ = RunState::stopped;
     bool is_proven_ = false;        ///< the table came with a certificate
     bool stop_ordered_ = false;     ///< since the start, or the hold, began
-    bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
+    bool stop_after_loss_ = false;  ///< the motor is to be stopped again once the link delivers
     bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
     bool is_mark_refused_ = false;  ///< of the last run()
     SafeReason waits_because_ = SafeReason::none;  ///< until somebody's run() is marked in the store

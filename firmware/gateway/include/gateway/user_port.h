@@ -17,7 +17,7 @@ namespace nplc::gateway {
 /// the answer to the one before. Refused messages get no answer.
 class UserPort {
   public:
-    /// `request` is MODE_REG := 0 (passive) to the motor. While a sequence runs this is also a stop command.
+    /// `request` is MODE_REG := 0 (passive) to the motor, which is a stop command too.
     static constexpr bool is_stop(const protocol::mactalk::Request& request) {
         return request.kind == protocol::mactalk::Kind::write && request.reg == registers::MODE_REG &&
                request.length <= 4 && request.value == 0;

@@ -102,6 +102,7 @@ class JvlLink {
     void on_reply(const protocol::flexmac::Message& reply);
     void on_status(std::uint8_t byte, base::Instant now);
     bool shows_old(const protocol::fastmac::Status& seen) const;
+    bool denies_echo(const protocol::fastmac::Status& seen) const;
     bool is_done() const;
     void settle(base::Instant now);
     bool in_step(const protocol::fastmac::Status& seen) const;
@@ -120,6 +121,8 @@ class JvlLink {
     std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not accepted
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
+    std::uint8_t denied_ = 0;  ///< status bytes in a row that deny the last echo
+    bool echo_was_false_ = false;  ///< the echo before leaving FlexMAC was a damaged status byte
     bool reads_ = false;  ///< the answer to request_ is pending
     bool synchronized_ = false;
     bool toggle_ = false;

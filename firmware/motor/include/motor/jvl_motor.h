@@ -36,8 +36,8 @@ class JvlMotor final : public Motor {
     void send(const Order& order) override { orders_.push(order, is_up()); }
     bool can_execute(const Order& order) const override;
     void stop() override;
-    bool stop_confirmed() const override { return !stop_wanted_; }
-    void give_up_stop() override { stop_wanted_ = false; }
+    bool stop_confirmed() const override { return !stop_wanted_ && !stop_unproven_; }
+    void give_up_stop() override { stop_wanted_ = stop_unproven_ = false; }
     bool begin_access(const Access& access) override { return is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }
@@ -85,6 +85,7 @@ class JvlMotor final : public Motor {
     bool safe_now_ = false;  ///< the motor expects every byte twice
     bool slowed_ = false;    ///< 13h has been sent
     bool stop_wanted_ = false;
+    bool stop_unproven_ = false;  ///< its echo is proved when FlexMAC is left without a contradiction
     bool link_error_ = false;
     bool was_up_ = false;
     bool is_aside_ =
