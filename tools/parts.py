@@ -36,7 +36,7 @@ PARTS = {
     "plant": ((), "release"),
 }
 LABELS = {"sanitizers": "gate|thorough", "sanitized-realtime": "realtime|terminals"}
-ONCE_MORE = {"realtime", "terminals", "sanitized-realtime"}
+ONCE_MORE = {"realtime", "terminals", "sanitized-realtime", "browser", "plant"}
 TOO_LONG = 900  # seconds of the gate's tests: a warning
 SLOWEST = 10
 

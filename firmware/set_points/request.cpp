@@ -49,19 +49,24 @@ void give_number(std::span<std::uint8_t> request, std::uint32_t own_number) {
 Recipe decode_recipe(std::span<const std::uint8_t> bytes, const Record& record, std::uint8_t number) {
     constexpr std::size_t kNameBytes = kLongestRecipeName + 1;
     constexpr std::size_t kValueBytes = 9;
-    Recipe recipe{.number = number, .name = {}, .values = {}};
+    Recipe recipe{.number = number, .name = {}, .values = {}, .misfits = {}};
     if (bytes.size() < kRecipeBytes) return recipe;
     for (std::size_t i = 0; i < kNameBytes && bytes[i] != 0; ++i)
         recipe.name += bytes[i] >= 0x20 && bytes[i] < 0x7F ? static_cast<char>(bytes[i]) : '?';
     for (std::size_t at = kNameBytes; at + kValueBytes <= kRecipeBytes; at += kValueBytes) {
         const std::uint32_t hash = base::load_u32(&bytes[at]);
+        if (hash == 0) continue;
         const auto value = static_cast<std::int32_t>(base::load_u32(&bytes[at + 4]));
-        for (std::size_t i = 0; i < record.values.size(); ++i) {
-            const SetPoint& point = record.values[i];
-            if (hash_of(point.name) == hash && point.unit_code == bytes[at + 8] && value >= point.lowest &&
-                value <= point.highest)
-                recipe.values.push_back({i, value});
-        }
+        const auto fits = [&](const SetPoint& point) {
+            return hash_of(point.name) == hash && point.unit_code == bytes[at + 8] && value >= point.lowest &&
+                   value <= point.highest;
+        };
+        const auto point = std::find_if(record.values.begin(), record.values.end(), fits);
+        if (point == record.values.end())
+            recipe.misfits.push_back({hash, value, bytes[at + 8]});
+        else
+            recipe.values.push_back(
+                {static_cast<std::size_t>(std::distance(record.values.begin(), point)), value});
     }
     return recipe;
 }

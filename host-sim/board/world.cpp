@@ -272,6 +272,10 @@ Snapshot World::take_snapshot() {
                       .link_up = motor::delivers(motor_->link()),
                       .running = controller_->sequence().run_state() == gateway::RunState::running,
                       .orders = std::exchange(orders_, {})};
+    for (std::size_t i = 0; i < controller_->set_points().record().count(); ++i) {
+        const auto reg = static_cast<std::uint8_t>(registers::gateway::SET_POINT + i);
+        snapshot.set_points[i] = static_cast<std::int32_t>(controller_->set_points().value(reg));
+    }
     if (drive_) drive_->fill(snapshot);
     return snapshot;
 }

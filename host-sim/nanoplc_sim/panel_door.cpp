@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "faces/program_version.h"
+#include "host/printable.h"
 #include "input_file.h"
+#include "panel/names.h"
 
 namespace nplc::sim {
 namespace {
@@ -46,7 +48,7 @@ Read read_action(const std::string& text, const Names& names) {
 }  // namespace
 
 PanelDoor::PanelDoor(const std::optional<std::string>& where, const Program& program, faces::AxisModel& axis)
-    : program_(program) {
+    : program_(program), axis_(axis) {
     if (!where) return;
     panel::PanelOptions options;
     options.web = web_options(*where);
@@ -157,6 +159,11 @@ PanelDoor::Found PanelDoor::find(std::size_t, std::uint32_t crc) {
 std::string PanelDoor::keep(std::size_t, std::uint32_t crc, std::string_view text) {
     symbols_.clear();  // the previous program's names are in program_, or it had none
     symbols_[crc] = std::string(text);
+    if (const faces::Scaling scale = panel::scale_in(text); !panel::is_same(scale, axis_.scaling()))
+        host::complain(
+            fmt::format("the uploaded program's SCALE is {}: the panel shows it, Modbus, MQTT and "
+                        "metrics keep to {}; start the simulator with this program for them",
+                        panel::in_words(scale), panel::in_words(axis_.scaling())));
     return {};
 }
 

@@ -68,6 +68,7 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
     void add_to_record(double milliseconds, std::string_view text);
 
     const Program& program_;
+    const faces::AxisModel& axis_;
     mutable std::mutex mutex_;
     std::vector<Wanted> wanted_;
     State state_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "set_points/values.h"
+
 namespace nplc::sim {
 namespace {
 
@@ -47,8 +49,12 @@ std::string in_unit(double value, const Unit& unit) {
 /// `step = Fault`, `P_IST = 80.02 mm`.
 std::string describe(const Condition& condition, const Snapshot& snapshot, const Names& names) {
     if (condition.value.kind == Value::Kind::step) return "step = " + names.step(snapshot.step);
+    const double value = condition.value.of(snapshot);
+    const unsigned index = condition.value.index;
     return fmt::format("{} = {}", condition.value.name(names),
-                       in_unit(condition.value.of(snapshot), condition.unit));
+                       condition.value.kind == Value::Kind::set_point
+                           ? set_points::text_of(names.set_points.values[index], snapshot.set_points[index])
+                           : in_unit(value, condition.unit));
 }
 
 void collect(const Condition& condition, const Snapshot& snapshot, const Names& names,
@@ -112,6 +118,8 @@ double Value::of(const Snapshot& s) const {
             return static_cast<double>(s.shaft);
         case Kind::torque:
             return s.torque;
+        case Kind::set_point:
+            return s.set_points[index];
     }
     return 0;
 }
@@ -148,6 +156,8 @@ std::string Value::name(const Names& names) const {
             return "SHAFT";
         case Kind::torque:
             return "TORQUE";
+        case Kind::set_point:
+            return names.set_points.values[index].name;
     }
     return "?";
 }

@@ -147,6 +147,7 @@ void ConditionParser::operand(Condition& condition) {
 
 void ConditionParser::quantity(Condition& condition) {
     const Value::Kind kind = condition.value.kind;
+    if (kind == Value::Kind::set_point) return set_point_value(condition);
     if (kind == Value::Kind::timer && reader_.starts_duration()) {
         condition.operand = static_cast<double>(reader_.duration("a time").count()) / 1e6;
         condition.unit = {"ms", 1};
@@ -320,6 +321,10 @@ std::optional<Value> ConditionParser::lookup(std::string_view word) const {
     for (const auto& [name, kind] : kValues) {
         if (same_name(name, word)) return Value{.kind = kind};
     }
+    const std::vector<set_points::SetPoint>& points = names_.set_points.values;
+    for (unsigned i = 0; i < points.size(); ++i) {
+        if (same_name(points[i].name, word)) return Value{.kind = Value::Kind::set_point, .index = i};
+    }
     return std::nullopt;
 }
 
@@ -327,6 +332,7 @@ std::string ConditionParser::known_values() const {
     std::string known;
     append(known, names_.inputs);
     append(known, names_.outputs);
+    for (const set_points::SetPoint& point : names_.set_points.values) known += point.name + ", ";
     return known +
            "IN0..IN5, OUT0..OUT3, INPUTS, OUTPUTS, step, TIMER, COUNTER, INPOS, ERROR, LINK, RUNNING, P_IST, "
            "V_IST, SHAFT, TORQUE or ordered \"...\"";
@@ -383,6 +389,8 @@ unsigned ConditionParser::input(std::string_view use) {
         reader_.refuse_next(fmt::format(
             "{} is an output: the sequence sets it, a scenario can only watch it; name an input", word));
     }
+    if (found && found->kind == Value::Kind::set_point)
+        reader_.refuse_next(fmt::format("{0} is a set-point; write set {0} := and its value", word));
     if (!found || found->kind != Value::Kind::input) {
         std::string known;
         append(known, names_.inputs);

@@ -126,6 +126,9 @@ class ConditionParser {
         Unit unit;
     };
     void quantity(Condition& condition);
+    // set_point_parser.cpp
+    void set_point_value(Condition& condition);
+    Measure point_measure(const set_points::SetPoint& point, std::string_view what);
     /// A number that may be counts or the machine's unit says which.
     void want_unit(Value::Kind kind, const Measure& measure) const;
     double step_number();

@@ -1,4 +1,4 @@
-// set Length := 60 mm and Dwell := 800 ms; recipe save "Short"; recipe load "Short"
+// set Length := 60 mm and Dwell := 800 ms; recipe save "Short"; recipe load "Short"; expect Length = 60 mm
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,11 +7,18 @@
 #include "set_points/recipes.h"
 #include "set_points/request.h"
 #include "set_points/values.h"
+#include "units.h"
 
 namespace nplc::sim {
 
 using registers::gateway::SetPointRequest;
 using set_points::NewValue;
+
+namespace {
+
+constexpr double kRounded = 0.5;  // a value in whole steps is so far from the one that was written
+
+}  // namespace
 
 void ActionParser::needs_set_points() const {
     if (conditions_.names().set_points.values.empty())
@@ -54,6 +61,45 @@ void ActionParser::set_points(Actions& list, Time after) {
     add(list, after,
         action::SetPoints{set_points::encode_request(record, SetPointRequest::change, values),
                           reader_.source_since(begin)});
+}
+
+/// Length = 90 mm, Length = 90 mm +- 1 mm, Dwell < 2 s: without a unit in its own.
+void ConditionParser::set_point_value(Condition& condition) {
+    using Relation = Condition::Relation;
+    const set_points::SetPoint& point = names_.set_points.values[condition.value.index];
+    const std::size_t begin = reader_.mark();
+    const Measure wanted = point_measure(point, "a number");
+    condition.operand = wanted.value;
+    condition.unit = wanted.unit;
+    if (reader_.take("+-")) {
+        if (condition.relation != Relation::equal) reader_.refuse("a tolerance (+-) goes with = only");
+        condition.tolerance = point_measure(point, "a number after +-").value;
+        if (condition.tolerance < 0) reader_.refuse("a tolerance is not negative; write it without the sign");
+        condition.tolerance += kRounded;
+        return;
+    }
+    if (condition.relation != Relation::equal && condition.relation != Relation::unequal) return;
+    const set_points::Reading exact = set_points::read_value(point, reader_.source_since(begin));
+    if (!exact.error.empty()) reader_.refuse_at(begin, exact.error);
+    condition.operand = exact.value;
+}
+
+ConditionParser::Measure ConditionParser::point_measure(const set_points::SetPoint& point,
+                                                        std::string_view what) {
+    const double number = reader_.number(what);
+    std::vector<Unit> units{{point.unit, point.steps_per_unit}};
+    if (point.kind == set_points::ValueKind::timer) units = {{"ms", 1}, {"s", 1000}};
+    for (const Unit& unit : units) {
+        if (!unit.name.empty() && take_unit(unit.name)) return {number * unit.size, unit};
+    }
+    const Token& next = reader_.peek();
+    if (next.kind == Token::Kind::word && !knows(next.text) && looks_like_unit(next.text, names_)) {
+        reader_.refuse_next(point.unit.empty()
+                                ? fmt::format("{} has no unit; write the number alone", point.name)
+                                : fmt::format("\"{}\" is no unit of {}; write {}", next.text, point.name,
+                                              units.size() > 1 ? "ms or s" : point.unit));
+    }
+    return {number * point.steps_per_unit, {point.unit, point.steps_per_unit}};
 }
 
 /// By name. A scenario begins without recipes, so it can only load those it has saved.

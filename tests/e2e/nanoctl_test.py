@@ -324,6 +324,49 @@ class Operating(Case):
         self.assertEqual(self.ctl("operate")["operator"], "nobody")
 
 
+FEEDER = """PROGRAM Feeder
+MOTOR MAC140;
+SCALE 1 rev = 5 mm;
+{points}
+ON ERROR NEXT := Fault;
+POWER_UP INIT(V1, A1); NEXT := Idle; END_POWER_UP
+STEP Idle: {waits} IF IN0 THEN NEXT := Push; END_IF END_STEP
+STEP Push: {moves} IF INPOS WITHIN T#3s THEN NEXT := Idle; ELSE NEXT := Fault; END_IF END_STEP
+STEP Fault: OWN ERROR; ENTRY STOP; IF ANY ERROR AND IN1 THEN RESET_ERROR; NEXT := Idle; END_IF END_STEP
+END_PROGRAM
+"""
+
+
+class Dropped(Case):
+    def build(self, name, points, moves="ENTRY POSITION(Length);", waits=""):
+        source = self.path(f"{name}.seq")
+        with open(source, "w", encoding="utf-8") as file:
+            file.write(FEEDER.format(points=points, moves=moves, waits=waits))
+        built = subprocess.run([SEQC, "build", source, "-o", self.path(f"{name}.bin")], capture_output=True, text=True, check=False)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        return self.path(f"{name}.bin")
+
+    def test_what_a_new_table_does_not_take_is_named(self):
+        length = "SET_POINT Length AT P2 := 80 mm RANGE 10 .. {} mm STEP 0.1 mm;"
+        first = self.build("first", length.format(200))
+        shorter = self.build("shorter", length.format(100))
+        plain = self.build("plain", "VAR_MOTOR Length AT P2 := 80 mm; END_VAR")
+        self.start()
+        self.assertEqual(self.ctl("upload", first)["dropped"], [])
+        self.ctl("set-points", "set", "Length=150mm")
+        self.ctl("recipe", "save", "Long")
+        lost = {"name": "Length", "value": "150 mm", "recipe": "", "why": "out_of_range"}
+        self.assertEqual(self.ctl("upload", "--only-store", shorter)["dropped"], [lost, lost | {"recipe": "Long"}])
+        self.assertEqual(self.ctl("activate")["dropped"], [lost, lost | {"recipe": "Long"}])
+        told = self.call("recipe", "load", "Long").stdout
+        self.assertIn("recipe 'Long': Length 150 mm is not loaded, its default 80 mm is in its place: it takes 10 mm to 100 mm", told)
+        self.assertEqual(self.ctl("upload", first)["dropped"], [])
+        self.ctl("recipe", "load", "Long")
+        told = self.call("upload", plain).stdout
+        self.assertIn("\nLength 150 mm is dropped: the table has no such set-point", told)
+        self.assertIn("\nrecipe 'Long': Length 150 mm is not loaded: the table has no such set-point", told)
+
+
 class Talking(Case):
     def test_settings(self):
         self.start()

@@ -187,6 +187,7 @@ class OneIsWrong(TwoAxes):
         service = self.start_both(self.bad(motor="three"))
         self.assertEqual(self.reason(), ("stopped", "no store", 0))
         self.assertIn("another program uses this memory", service.said())
+        self.assertNotIn("are damaged", service.said())
         self.ends(service)
         self.assertTrue(os.path.exists(self.path("state/bad/running")), "the mark of the one that runs")
         self.moves("first")

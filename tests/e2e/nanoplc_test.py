@@ -441,6 +441,18 @@ class Telling(ServiceCase):
         result = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", EXAMPLE], capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
 
+    def test_a_scale_that_is_not_the_programs_is_told(self):
+        source = self.put("belt.seq", "PROGRAM Belt\nMOTOR MAC140;\nSCALE 1 rev = 5 mm;\nON ERROR NEXT := Fault;\n"
+                          "POWER_UP NEXT := Idle; END_POWER_UP\nSTEP Idle: END_STEP\nSTEP Fault: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        subprocess.run([service_case.SEQC, "build", source, "-o", self.path("belt.bin")], check=True, stdout=subprocess.DEVNULL)
+        self.plug_in()
+        for scale, is_told in (('unit = "mm"\nunits = 5', False), ('unit = "mm"\nunits = 4', True), ('unit = "deg"\nunits = 360', True)):
+            axis = self.axis(table=self.path("belt.bin"), more=f"[axis.scale]\n{scale}\n")
+            config = self.write(axis.replace("[axis.motor]", f'symbols = "{self.path("belt.sym")}"\n[axis.motor]'))
+            result = subprocess.run([service_case.NANOPLC, "check-config", config], capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("the SCALE of its program 5 mm a revolution" in result.stdout, is_told, result.stdout)
+
     def test_the_example_has_every_key(self):
         with open(EXAMPLE, encoding="utf-8") as file:
             text = file.read()

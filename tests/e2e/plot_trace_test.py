@@ -73,6 +73,23 @@ END_PROGRAM
         texts = re.findall(r">([^<]*)</text>", self.read("b.svg"))
         self.assertEqual((texts.count("Idle"), texts.count("Work")), (1, 1), texts)
 
+    def test_a_step_of_a_later_call_is_a_box_of_its_own(self):
+        self.put("c.seq", """PROGRAM Twice
+MOTOR MAC140;
+SEQUENCE Rest(VAR_INPUT Held)
+    STEP Wait: OWN ERROR; ENTRY TIMER := T#200ms; IF TIMER.Q AND NOT Held THEN RETURN; END_IF END_STEP
+END_SEQUENCE
+POWER_UP NEXT := One; END_POWER_UP
+STEP One: OWN ERROR; CALL Rest(IN0); NEXT := Two; END_STEP
+STEP Two: OWN ERROR; CALL Rest(IN0); NEXT := One; END_STEP
+END_PROGRAM
+""")
+        done = self.run_program(NANOPLC_SIM, "run", "c.seq", "--for", "700ms", "--quiet", "--trace", "c.csv")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(self.plot("c.csv", "-o", "c.svg").returncode, 0)
+        texts = re.findall(r">([^<]*)</text>", self.read("c.svg"))
+        self.assertEqual((texts.count("Rest_Wait") > 0, texts.count("Rest_Wait_2") > 0), (True, True), texts)
+
     def test_what_a_count_is_comes_from_the_motor_that_ran(self):
         self.put("p.seq", "PROGRAM P MOTOR MAC800; SCALE 1 rev = 360 deg; STEP A: OWN ERROR; IF IN0 THEN NEXT := POWER_UP; END_IF "
                             "END_STEP END_PROGRAM\n")

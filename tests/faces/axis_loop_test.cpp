@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "port_bench.h"
 
 namespace nplc::faces {
@@ -344,6 +346,33 @@ TEST(AxisLoop, ReadsTheMotorSeldom) {
     bench.port.board.accesses.clear();
     bench.run(2s);
     EXPECT_TRUE(bench.port.board.accesses.empty());
+}
+
+/// The same number of reads, so that the sequence's orders wait no more often.
+TEST(AxisLoop, ReadsTheTorqueAsOftenAsThePositionForATrend) {
+    const auto reads = [](Bench& bench, bool has_trend) {
+        bench.port.board.accesses.clear();
+        for (const auto end = bench.now() + 14s; bench.now() < end;) {
+            if (has_trend) bench.model.want_trend(bench.now());
+            static_cast<void>(bench.image());
+        }
+        std::map<unsigned, int> count;
+        for (const motor::Access& access : bench.port.board.accesses) ++count[access.reg];
+        count[0] = static_cast<int>(bench.port.board.accesses.size());
+        return count;
+    };
+    Bench bench;
+    reads(bench, false);  // the first pass over all
+    auto usual = reads(bench, false);
+    auto trend = reads(bench, true);
+    EXPECT_LT(usual[registers::VF_OUT] * 3, usual[registers::P_IST]);
+    EXPECT_NEAR(trend[registers::VF_OUT], trend[registers::P_IST], 1);
+    EXPECT_NEAR(trend[registers::VF_OUT], trend[registers::V_IST], 1);
+    EXPECT_GE(trend[registers::VF_OUT], 35);
+    EXPECT_NEAR(trend[0], usual[0], 1);
+    EXPECT_GE(trend[registers::ERR_STAT], 2) << "the others have their turns";
+    bench.run(2s);
+    EXPECT_LT(reads(bench, false)[registers::VF_OUT] * 3, usual[registers::P_IST]);
 }
 
 }  // namespace

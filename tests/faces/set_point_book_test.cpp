@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "faces/axis_loop.h"
+#include "faces/drop_watch.h"
 #include "set_points_bench.h"
 
 namespace nplc::faces {
@@ -228,6 +229,32 @@ TEST(SetPointBook, FollowsRecipesAndUploads) {
     image = bench.image();
     EXPECT_EQ(bench.model.set_points()->record.values.size(), 0U);
     EXPECT_TRUE(bench.model.set_points()->is_of(image));
+}
+
+TEST(DropWatch, NamesWhatAnotherTableDoesNotTake) {
+    BookBench bench;
+    DropWatch watch;
+    watch.look(*bench.port.controller);
+    EXPECT_TRUE(watch.exchanged(*bench.port.controller).empty());
+    ASSERT_TRUE(bench.port.change({{0, 70'000}}));
+    ASSERT_TRUE(bench.port.save("Short"));
+    watch.look(*bench.port.controller);
+    set_points::Record next = SetPointBench::record();
+    next.values[0].highest = 65'536;
+    next.values[2].name = "Pause";
+    ASSERT_TRUE(bench.port.upload_and_activate(SetPointBench::content(next)));
+    std::string told;
+    for (const set_points::Dropped& one : watch.exchanged(*bench.port.controller))
+        told += set_points::text_of(one) + "\n";
+    EXPECT_EQ(
+        told,
+        "Length 70000 counts is dropped, its default 65536 counts is in its place: it takes -4096 counts "
+        "to 65536 counts\n"
+        "Dwell 500 ms is dropped: the table has no such set-point\n"
+        "recipe 'Short': Length 70000 counts is not loaded, its default 65536 counts is in its place: it "
+        "takes -4096 counts to 65536 counts\n"
+        "recipe 'Short': Dwell 500 ms is not loaded: the table has no such set-point\n");
+    EXPECT_TRUE(watch.exchanged(*bench.port.controller).empty()) << "told once";
 }
 
 }  // namespace

@@ -111,6 +111,95 @@ TEST(NanoctlSetPoints, RecipesAreListed) {
     EXPECT_EQ(recipes[1].number, 2);
 }
 
+struct Exchange {
+    explicit Exchange(SetPointClient& client, const set_points::Record& next)
+        : before(read_before(client.client, next)) {
+        upload(client.client, SetPointBench::content(next), [](std::size_t, std::size_t) {});
+        client.client.activate();
+        for (const set_points::Dropped& one : read_dropped(client.client, before, next))
+            told += set_points::text_of(one) + "\n";
+    }
+    std::optional<ValuesBefore> before;
+    std::string told;
+};
+
+/// Length is gone, Speed has another range, Dwell another unit.
+set_points::Record other_record() {
+    set_points::Record next{{SetPointBench::speed(), SetPointBench::dwell()}, 3};
+    next.values[0].highest = 2000;
+    next.values[1].unit_code = registers::set_points::kCount;
+    next.values[1].unit = "parts";
+    return next;
+}
+
+TEST(NanoctlSetPoints, WhatANewTableDropsIsNamedWithTheReason) {
+    SetPointClient bench;
+    bench.ask(SetPointRequest::change, {{0, -5}, {1, 2500}, {2, 20}});
+    bench.ask(SetPointRequest::put_recipe, {{0, 7}, {1, 200}}, "Short");
+    const Exchange exchange(bench, other_record());
+    EXPECT_EQ(
+        exchange.told,
+        "Length -5 counts is dropped: the table has no such set-point\n"
+        "Speed 1192 rpm is dropped, its default 477 rpm is in its place: it takes 47.7 rpm to 953.7 rpm\n"
+        "Dwell 20 ms is dropped, its default 500 parts is in its place: its unit is another one, it takes "
+        "1 parts to 5000 parts\n"
+        "recipe 'Short': Length 7 counts is not loaded: the table has no such set-point\n"
+        "recipe 'Short': Dwell 20 ms is not loaded, its default 500 parts is in its place: its unit is "
+        "another one, it takes 1 parts to 5000 parts\n");
+    const KeptSetPoints kept = read_set_points(bench.client);
+    EXPECT_EQ(kept.wanted, (std::vector<std::int32_t>{1000, 500}));
+    EXPECT_EQ(Exchange(bench, other_record()).before, std::nullopt) << "the same record: nothing is dropped";
+}
+
+TEST(NanoctlSetPoints, ATableWithoutSetPointsDropsThemAll) {
+    SetPointClient bench;
+    bench.ask(SetPointRequest::change, {{0, -5}});
+    EXPECT_EQ(Exchange(bench, {}).told,
+              "Length -5 counts is dropped: the table has no such set-point\n"
+              "Speed 477 rpm is dropped: the table has no such set-point\n"
+              "Dwell 500 ms is dropped: the table has no such set-point\n");
+    EXPECT_EQ(Exchange(bench, other_record()).told,
+              "Dwell has its default 500 parts: what was kept has another name, unit or range\n")
+        << "their values before are not known any more";
+}
+
+TEST(NanoctlSetPoints, WhereNothingWasEverSetNothingIsDropped) {
+    SetPointClient bench;
+    EXPECT_EQ(Exchange(bench, other_record()).told, "");
+}
+
+/// The register keeps its steps: the operator's value is another one in the unit.
+TEST(NanoctlSetPoints, AnotherScaleIsTold) {
+    SetPointClient bench;
+    bench.ask(SetPointRequest::change, {{0, 8192}});
+    set_points::Record next = SetPointBench::record();
+    next.values[0].unit = "mm";
+    next.values[0].steps_per_unit = 819.2;
+    EXPECT_EQ(Exchange(bench, next).told,
+              "Length 8192 counts stays and is 10 mm now: its scale is another one\n");
+}
+
+TEST(NanoctlSetPoints, WhatALoadedRecipeDoesNotGiveIsNamed) {
+    SetPointClient bench;
+    bench.ask(SetPointRequest::put_recipe, {{0, 7}, {1, 2500}, {2, 20}}, "Short");
+    const set_points::Record next = other_record();
+    static_cast<void>(Exchange(bench, next));
+    const KeptSetPoints before = read_set_points(bench.client);
+    const Recipe recipe = read_recipes(bench.client, before).at(0);
+    write_set_points(bench.client, next,
+                     set_points::encode_request(next, SetPointRequest::load_recipe, {}, {.name = "Short"}));
+    std::string told;
+    for (const set_points::Dropped& one : dropped_by_loading(recipe, read_set_points(bench.client)))
+        told += set_points::text_of(one) + "\n";
+    EXPECT_EQ(
+        told,
+        "recipe 'Short': a value is not loaded: the table has no such set-point\n"
+        "recipe 'Short': Speed 1192 rpm is not loaded, its default 477 rpm is in its place: it takes 47.7 "
+        "rpm to 953.7 rpm\n"
+        "recipe 'Short': Dwell is not loaded, its default 500 parts is in its place: its unit is another "
+        "one, it takes 1 parts to 5000 parts\n");
+}
+
 /// What a storage takes longer than any answer is waited for: its real end is told.
 TEST(NanoctlSetPoints, ASlowStorageIsWaitedFor) {
     SetPointClient bench;

@@ -64,12 +64,60 @@ TEST(AxisFeed, AValueThatIsNotReadAgainIsToldOnceMoreAsNotGood) {
     EXPECT_EQ(next(21s), Json::parse(R"({"P_IST":[4711,0,true]})"));
 }
 
+TEST(AxisFeed, AsksForATrendOfTheTorque) {
+    Axis axis;
+    EXPECT_TRUE(axis.model.wants_trend(kBegin));
+    EXPECT_FALSE(axis.model.wants_trend(kBegin + 1'001ms));
+    axis.read(MotorItem::torque, 512, kBegin);
+    axis.leave(kBegin);
+    const faces::AxisImage told = axis.feed.image();
+    axis.leave(kBegin + 2'010ms);
+    EXPECT_EQ(axis.values(&told, kBegin + 2'010ms), Json::parse(R"({"VF_OUT":[512,2010,false]})"));
+}
+
 TEST(AxisFeed, TellsTheNameOfTheProgramsFile) {
     Axis axis;
     axis.model.table_shelf().put(std::make_shared<const faces::AxisTable>(
         faces::AxisTable{.crc = 1, .bytes = std::vector<std::uint8_t>(8, 0xFF)}));
     axis.leave(kBegin + 10ms);
     EXPECT_EQ(Json::parse(axis.feed.program_text())["file"], "feeder.seq");
+}
+
+/// A table with one set-point of that name, and its activation in the log.
+void exchange(Axis& axis, const std::string& name, std::uint32_t table, base::Instant now) {
+    set_points::SetPoint point;
+    point.name = name;
+    point.unit = "mm";
+    point.highest = 200;
+    auto book = std::make_shared<faces::SetPointBook>();
+    book->edition = book->record_crc = table;
+    book->record = {{point}, 1};
+    ASSERT_TRUE(axis.model.set_point_shelf().put(book));
+    namespace gw = registers::gateway;
+    axis.image.own[gw::SET_POINT_COUNT] = 1;
+    axis.image.own[gw::SET_POINT_RECORD] = table;
+    axis.image.own[gw::SET_POINT_WANTED] = name == "Length" ? 90 : 0;
+    axis.image.own[gw::LOG + 2 * (axis.image.own[gw::LOG_COUNT]++ % gw::kLogEntries) + 1] =
+        static_cast<std::uint32_t>(gw::Event::table_activated);
+    axis.leave(now);
+}
+
+TEST(AxisFeed, TheEventOfANewTableNamesTheValuesThatItDrops) {
+    Axis axis;
+    const auto last_text = [&axis] {
+        const std::string text = axis.feed.events_text(axis.feed.last_event() - 1);
+        return Json::parse(text)["events"].back()["text"].get<std::string>();
+    };
+    exchange(axis, "Length", 7, kBegin + 10ms);
+    EXPECT_EQ(last_text().find("Length"), std::string::npos);
+    exchange(axis, "Width", 8, kBegin + 20ms);
+    EXPECT_NE(last_text().find("; Length 90 mm is dropped: the table has no such set-point"),
+              std::string::npos)
+        << last_text();
+    exchange(axis, "Length", 7, kBegin + 30ms);
+    exchange(axis, "Width", 8, kBegin + 10s);
+    EXPECT_EQ(last_text().find("Length"), std::string::npos)
+        << "nobody looked on: it may have been set to another value meanwhile";
 }
 
 }  // namespace

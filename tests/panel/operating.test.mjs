@@ -12,6 +12,10 @@ const pick = join(examples, "pick_and_place.seq");
 
 const withPages = (count, use, options = {}, program = pick) => pagesOf(program, count, use, options);
 
+const isReadable = async (page, selector) => {
+  const [words, ground] = await page.locator(selector).evaluate((e) => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]);
+  assert.notEqual(words, ground, `${selector} can be read`);
+};
 const state = (page, text) => hasText(page, "#state-text", text);
 const lamp = (page, name, level) =>
   page.waitForFunction(([n, l]) => document.querySelector(`.lamp[aria-label="${n} is ${l}"]`) !== null, [name, level]);
@@ -77,6 +81,7 @@ test("who operates is taken over on request, and told so", () =>
     await second.click("#mode");
     await second.fill("#token", machine.token);
     await second.click("#token-form button[type=submit]");
+    await isReadable(second, "#notices button:has-text('Take over')");
     await second.click("#notices button:has-text('Take over')");
     await second.waitForFunction(() => document.body.classList.contains("operating"));
     await hasText(first, "#notices", "panel 2 at 127.0.0.1 has taken over; you are watching");
@@ -91,8 +96,32 @@ test("a stop that the motor does not confirm says that it may be moving", () =>
     await page.click("#do-stop");
     await hasText(page, "#link-bar", "has not confirmed it: it may be moving");
     await state(page, "stop not confirmed: the motor may be moving");
+    await hasText(page, "#why li:first-child", "It may be moving");
+    assert.doesNotMatch(await textOf(page, "#why"), /“Run” starts/);
+    await isReadable(page, "#do-give-up");
+    for (const id of ["#do-run", "#do-step", "#do-scan"]) assert.equal(await page.getAttribute(id, "aria-disabled"), "true", id);
+    await hasText(page, "#notices", "the machine may still be running");
+    for (let i = 0; i < 6; ++i) { // other notices do not push it out
+      await page.fill("#sim-action", `motor lod ${i}`);
+      await page.click("#sim-form button");
+      await hasText(page, "#notices", `motor lod ${i}:`);
+    }
+    await hasText(page, "#notices", "the machine may still be running");
     await page.click("#sim-cut");
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
+    assert.doesNotMatch(await textOf(page, "#notices"), /may still be running/, "it goes with its reason");
+  }));
+
+test("a stop while the simulated time is paused says why nothing comes of it", () =>
+  withPages(2, async (machine, page, watcher) => {
+    await operate(page, machine.token);
+    await page.click("#sim-pause");
+    await hasText(page, "#sim-pause", "Go on");
+    await watcher.click("#do-stop");
+    await hasText(watcher, "#link-bar", "The simulated time is paused");
+    await page.click("#sim-pause");
+    await state(watcher, "stopped: stop command");
+    await watcher.waitForFunction(() => document.querySelector("#link-bar").hidden);
   }));
 
 test("a stop that the motor does not confirm is given up after a question", () =>
@@ -101,6 +130,7 @@ test("a stop that the motor does not confirm is given up after a question", () =
     await page.click("#sim-cut");
     await page.click("#do-stop");
     await page.click("#do-give-up");
+    await isReadable(page, "#notices button:has-text('Give the stop up')");
     await page.click("#notices button:has-text('Give the stop up')");
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
     await hasText(page, "#sim-cut", "Restore the line");
@@ -192,6 +222,71 @@ test("an upload is compared and asked about, then stored, made active, and its n
     assert.deepEqual(readFileSync(await download.path()), readFileSync(table));
   }));
 
+test("files that are no table, an empty one, two, foreign names and another motor's program are told before anything is sent", () =>
+  withPages(1, async (machine, page) => {
+    const build = (name) => {
+      execFileSync(join(programs, "seqc"), ["build", join(examples, `${name}.seq`), "-o", path(`${name}.bin`)]);
+      return [path(`${name}.bin`), path(`${name}.sym`)];
+    };
+    const [table, names] = build("pick_and_place");
+    const others = build("cut_to_length");
+    const midi = build("midi_pick_and_place");
+    const bytes = readFileSync(table);
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    const told = async (files, text) => {
+      await page.setInputFiles("#upload-files", files);
+      await hasText(page, "#upload-text", text);
+      assert.equal(await page.locator("#upload-activate").isDisabled(), true, text);
+    };
+    await told([file("bin", Buffer.alloc(8, 255))], "is an empty table");
+    await told([file("bin", Buffer.concat([bytes, Buffer.alloc(5)]))], "it is no table, or has a certificate");
+    await told([table, others[0]], "choose one table and its names, not more");
+    await told([table, others[1]], "the names are those of another table");
+    await told([table, file("sym", "{ hello")], "holds no names of a program");
+    await told([table, file("sym", "[1, 2]")], "holds no names of a program");
+    await page.setInputFiles("#upload-files", midi);
+    await hasText(page, "#upload-text", "It was compiled for a MAC34, and this axis has a MAC140");
+    await page.setInputFiles("#upload-files", [table, names]);
+    await hasText(page, "#upload-text", "is the table that is active already");
+    assert.doesNotMatch(await textOf(page, "#upload-text"), /compiled for/);
+  }));
+
+test("names of another form than seqc's, from any client, leave the page at work", () =>
+  withPages(1, async (machine, page) => {
+    const table = path("strange.bin");
+    execFileSync(join(programs, "seqc"), ["build", join(examples, "cut_to_length.seq"), "-o", table]);
+    const client = new Client(machine.url);
+    await client.opened;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "command", name: "stop" });
+    await client.ask({ do: "seat" });
+    const crc = JSON.parse(readFileSync(path("strange.sym"), "utf8")).table;
+    const symbols = { table: crc, program: 7, steps: [null, { number: 1, name: 5 }, 3], inputs: { a: 1 }, outputs: [1, 2], scale: "mm", registers: {}, motor: [] };
+    const answer = await client.ask({ do: "upload", table: readFileSync(table).toString("base64"), symbols, activate: true });
+    assert.equal(answer.result, "done", answer.text);
+    await hasText(page, "#loaded", crc.crc32);
+    await hasText(page, "#waits-title", "Active step: Step 0");
+    await client.ask({ do: "command", name: "run" });
+    await state(page, "running");
+    client.close();
+  }));
+
+test("an upload with another SCALE: the page shows it, and says what the other faces keep to", () =>
+  withPages(1, async (machine, page) => {
+    assert.doesNotMatch(await textOf(page, "#loaded"), /Modbus/);
+    const source = file("seq", readFileSync(pick, "utf8").replace(/SCALE [^;]*;/, "SCALE 1 rev = 360 deg;").replaceAll(/([\d.]+) mm/g, "$1 deg"));
+    const table = path("degrees.bin");
+    execFileSync(join(programs, "seqc"), ["build", source, "-o", table]);
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    await page.setInputFiles("#upload-files", [table, path("degrees.sym")]);
+    await page.click("#upload-activate");
+    await hasText(page, "#loaded", "Modbus, MQTT and metrics show positions at 5 mm a revolution");
+    await hasText(page, "#trend-now", "deg");
+    assert.match(machine.text, /the uploaded program's SCALE is 360 deg a revolution.*Modbus, MQTT and metrics keep to 5 mm a revolution/s);
+  }));
+
 test("why, the trend's CSV, and reset error", () =>
   withPages(1, async (machine, page) => {
     await hasText(page, "#why", "The sequence waits in Idle, for Travel: Start");
@@ -203,8 +298,36 @@ test("why, the trend's CSV, and reset error", () =>
     await page.click("#do-stop");
     await state(page, "stopped");
     await hasText(page, "#why", "gateway_safe (11)"); // as every other face tells it
+    await hasText(page, "#why", "“Run” starts it.");
+    assert.doesNotMatch(await textOf(page, "#why"), /nanoctl/);
     await page.click("#do-reset-error");
-    await hasText(page, "#notices", "ERR_STAT was cleared");
+    await hasText(page, "#notices", "The motor's errors were cleared");
+  }));
+
+test("a cause is told once, with the remedy for a sequence that runs", () =>
+  withPages(1, async (machine, page) => {
+    await hasText(page, "#waits-title", "Fault");
+    await hasText(page, "#why", "the gateway's sequence has stopped the motor");
+    assert.equal((await textOf(page, "#why")).split("velocity_zero").length - 1, 1);
+    assert.doesNotMatch(await textOf(page, "#why"), /macreg set V_SOLL/);
+  }, { scenario: "at 1 s pulse Start 50 ms\nat 1.2 s Guard := 1\n" }));
+
+test("reset error keeps the settings in ERR_STAT: relative positions stay relative", () =>
+  withPages(1, async (machine, page) => {
+    const kRelative = 0x200; // RELPOSPSOLL (001 §3.2.35)
+    const client = new Client(machine.url);
+    await client.opened;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "command", name: "stop" });
+    await client.ask({ do: "seat" });
+    assert.equal((await client.ask({ do: "motor_write", register: "ERR_STAT", value: kRelative })).result, "done");
+    await client.ask({ do: "leave" });
+    await operate(page, machine.token);
+    await page.click("#do-reset-error");
+    await hasText(page, "#notices", "The motor's errors were cleared");
+    const now = await client.ask({ do: "motor_read", register: "ERR_STAT" });
+    assert.equal(now.value & kRelative, kRelative);
+    client.close();
   }));
 
 test("the simulated machine: inputs, line, shaft, time, and a scenario that does the same", () =>

@@ -31,6 +31,15 @@ TEST(PanelRequest, CommandsByName) {
     EXPECT_FALSE(asked(R"({"id":1,"do":"command"})").command.has_value());
 }
 
+/// Not a write of 0 to ERR_STAT, which has settings too, and which a MIDI drive does not have.
+TEST(PanelRequest, ResetErrorIsTheModels) {
+    const Asked reset = asked(R"({"id":1,"do":"command","name":"reset_error"})");
+    ASSERT_TRUE(reset.command.has_value());
+    EXPECT_EQ(reset.command->kind, faces::Command::Kind::reset_error);
+    EXPECT_EQ(reset.command->origin, kNow);
+    EXPECT_TRUE(reset.command->operates());
+}
+
 TEST(PanelRequest, RegistersByNameAndNumber) {
     const Asked force = asked(R"({"id":1,"do":"write","register":"FORCE_IN","value":257})");
     ASSERT_TRUE(force.command.has_value());

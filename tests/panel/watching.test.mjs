@@ -119,10 +119,25 @@ test("60 steps: laid out without boxes that overlap, found by name, followed", a
         return box.left >= area.left && box.right <= area.right && box.top >= area.top && box.bottom <= area.bottom;
       });
     }
+    await page.click("#zoom-fit");
+    const outside = () => page.evaluate(() => {
+      const area = document.getElementById("drawing").getBoundingClientRect();
+      return [...document.querySelectorAll(".box")].map((box) => box.getBoundingClientRect())
+        .filter((b) => b.left < area.left || b.right > area.right || b.top < area.top || b.bottom > area.bottom).length;
+    });
+    assert.equal(await outside(), 0, "all of it is seen");
+    await page.setViewportSize({ width: 900, height: 900 });
+    await page.waitForFunction((width) => document.getElementById("drawing").clientWidth < width, 700);
+    await page.waitForTimeout(300); // longer than a frame: the size is told after it
+    assert.equal(await outside(), 0, "in another size too");
+    await page.setViewportSize({ width: 1440, height: 1000 });
     await page.fill("#search", "S42");
     assert.equal(await textOf(page, "#search-count"), "1 found");
     await page.press("#search", "Enter");
     await hasText(page, "#waits-title", "S42");
+    await page.click("#zoom-fit");
+    await page.press("#search", "Enter");
+    await page.waitForFunction(() => document.querySelector('.box.selected').getBoundingClientRect().width >= 70, null); // large enough to read
     await page.context().close();
   });
 });
@@ -140,10 +155,17 @@ test("the server is killed and started again: the page says so and comes back by
   assert.match(await textOf(page, "#state-text"), /\(old\)$/);
   assert.match(await page.title(), /\(old\)$/);
   await hasText(page, "#seat", "not known");
-  machine = await simulator(program, { scenario: kCycle, port });
+  await page.click("#do-stop");
+  await hasText(page, "#notices", "there is no connection; nothing was sent. Not confirmed: the machine may still be running.");
+  machine = await simulator(join(examples, "cut_to_length.seq"), { port });
   await painted(page);
   await page.waitForFunction(() => document.getElementById("link-bar").hidden);
-  await inStep(page, 2);
+  await hasText(page, "#program", "Cut_to_Length");
+  await inStep(page, 1);
+  const taken = await page.$$eval(".way.taken", (all) => all.length);
+  assert.ok(taken <= 1, `${taken} ways: the path of the program before is not drawn into this one`);
+  await page.click("#do-stop");
+  await page.waitForFunction(() => document.querySelectorAll(".notice.alarm").length === 0);
   await machine.stop();
   await page.context().close();
 });
@@ -182,6 +204,25 @@ test("the motor's values are shown with their age once its line is cut, and leav
     await page.context().close();
   }));
 
+test("the trend has an axis for each of position, velocity and current, and as many values of each", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    assert.equal(await page.locator("#trend .u-axis").count(), 4);
+    await hasText(page, "#trend-now", "%");
+    const counts = async () => {
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click("#trend-tools >> text=CSV")]);
+      const lines = readFileSync(await download.path(), "utf8").trimEnd().split("\n").slice(1).map((line) => line.split(","));
+      return [2, 3, 4].map((column) => lines.filter((line) => line[column] !== "").length);
+    };
+    const before = await counts();
+    await page.waitForTimeout(6_000); // reads to count
+    const [positions, velocities, currents] = (await counts()).map((count, i) => count - before[i]);
+    assert.ok(currents >= 6 && Math.abs(currents - positions) <= 3 && Math.abs(velocities - positions) <= 3, `${positions} positions, ${velocities} velocities, ${currents} currents`);
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
 test("names as long as they may be stay in their boxes", async () => {
   const long = (i) => `Step_${i}_WITH_MANY_WIDE_LETTERS_MW`.slice(0, [15, 16, 17, 32][i]);
   const steps = Array.from({ length: 4 }, (_, i) => `STEP ${long(i)}:\n    ${i === 0 ? "OWN ERROR;\n    " : ""}OUT Left_gripper, Right_gripper, Warning_lamp;\n    IF Go THEN NEXT := ${long((i + 1) % 4)}; END_IF\nEND_STEP\n`);
@@ -204,6 +245,30 @@ test("a program that is halted: data older than a second are shown as old", () =
     machine.child.kill("SIGCONT");
     await painted(page);
     await page.context().close();
+  }));
+
+test("what waited while the program was halted is not carried out, a stop is", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const client = new Client(machine.url);
+    const { axes } = await client.until((m) => m.t === "hello");
+    const axis = axes[0].name;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "seat", axis });
+    await client.ask({ do: "command", axis, name: "stop" });
+    machine.child.kill("SIGSTOP");
+    const late = client.ask({ do: "command", axis, name: "run" });
+    await new Promise((done) => setTimeout(done, 2000));
+    machine.child.kill("SIGCONT");
+    assert.equal((await late).result, "refused");
+    assert.equal((await late).code, 19);
+    await new Promise((done) => setTimeout(done, 300));
+    assert.equal((await client.ask({ do: "command", axis, name: "run" })).result, "done");
+    machine.child.kill("SIGSTOP");
+    const stop = client.ask({ do: "command", axis, name: "stop" });
+    await new Promise((done) => setTimeout(done, 2000));
+    machine.child.kill("SIGCONT");
+    assert.equal((await stop).result, "done");
+    client.close();
   }));
 
 test("a tab that was suspended catches up", () =>

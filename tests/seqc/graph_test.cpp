@@ -196,6 +196,86 @@ TEST(GraphModel, StepsOfASequenceNameWhatTheyWereCalledWith) {
     EXPECT_EQ(model_of_it.boxes[8].entry.front(), "ENTRY POSITION(Hole_2)");
 }
 
+const GraphModel::Box& box_named(const GraphModel& model, std::string_view name) {
+    for (const GraphModel::Box& box : model.boxes) {
+        if (box.name == name) return box;
+    }
+    ADD_FAILURE() << "no box " << name;
+    return model.boxes.front();
+}
+
+/// Idle waits for two edges, Alarm blinks and counts its WITHIN, Down is reached with the clamp on and off.
+const char* const kCopies =
+    "PROGRAM P MOTOR MAC140; VAR_INPUT Start AT IN0; Ack AT IN1; Low AT IN2; END_VAR\n"
+    "VAR_OUTPUT Clamp AT OUT0; Lamp AT OUT1; Horn AT OUT2; Ready AT OUT3; END_VAR\n"
+    "ON ERROR NEXT := Alarm; POWER_UP NEXT := Idle; END_POWER_UP\n"
+    "STEP Idle: OUT Ready; IF R_TRIG(Start) THEN SET Clamp; NEXT := Down; ELSIF F_TRIG(Ack) THEN NEXT := "
+    "Down; END_IF END_STEP\n"
+    "STEP Down: IF Low FOR 2 s THEN RESET Clamp; NEXT := Idle; ELSIF Start THEN EVERY_SCAN COUNT_DOWN; "
+    "END_IF "
+    "END_STEP\n"
+    "STEP Alarm: OWN ERROR; ENTRY RESET Clamp; OUT Lamp, Horn BLINKING T#500ms;\n"
+    "IF ANY ERROR AND Ack WITHIN T#2s THEN RESET_ERROR; NEXT := Idle; ELSE NEXT := POWER_UP; END_IF "
+    "END_STEP END_PROGRAM\n";
+
+TEST(GraphModel, AStepAndItsCopiesAreOneBox) {
+    const Compilation program = test::compiled(kCopies);
+    const GraphModel model = model_of(program, kCopies);
+    ASSERT_EQ(model.boxes.size(), 4U);
+    std::set<std::uint8_t> steps;
+    for (const GraphModel::Box& box : model.boxes) {
+        for (const std::uint8_t step : box.steps) EXPECT_TRUE(steps.insert(step).second) << int{step};
+        EXPECT_FALSE(box.is_of_compiler);
+        EXPECT_TRUE(box.reachable) << box.name;
+        EXPECT_EQ(box.steps.front(), box.step);
+    }
+    std::size_t named = 0;
+    for (const std::string& name : program.symbols.steps) named += name.empty() ? 0U : 1U;
+    EXPECT_EQ(steps.size(), named) << "each step of the table is in one box";
+    const GraphModel::Box& idle = box_named(model, "Idle");
+    EXPECT_GE(idle.steps.size(), 4U);
+    EXPECT_EQ(idle.outputs, (Texts{"OUT Ready"}));
+    EXPECT_EQ(texts_of(idle), (Texts{"R_TRIG(Start) / SET Clamp -> 2", "F_TRIG(Ack) -> 2"}));
+    const GraphModel::Box& down = box_named(model, "Down");
+    EXPECT_EQ(down.outputs, (Texts{"Clamp as before"}));
+    EXPECT_EQ(texts_of(down), (Texts{"Low FOR 2 s / RESET Clamp -> 1", "Start / COUNT_DOWN -> 2"}));
+    const GraphModel::Box& alarm = box_named(model, "Alarm");
+    EXPECT_EQ(alarm.outputs, (Texts{"OUT Lamp, Horn BLINKING T#500ms"}));
+    EXPECT_EQ(alarm.entry, (Texts{"ENTRY RESET Clamp"}));
+    EXPECT_EQ(texts_of(alarm), (Texts{"ANY ERROR AND Ack WITHIN T#2s / RESET_ERROR -> 1", "ELSE -> 0"}));
+}
+
+TEST(GraphModel, ATableWithoutItsProgramHasABoxForEachStep) {
+    const Compilation program = test::compiled(kCopies);
+    const GraphModel model = graph_model_of(program.table, &program.symbols, "");
+    for (const GraphModel::Box& box : model.boxes) EXPECT_EQ(box.steps, GraphModel::Steps{box.step});
+    EXPECT_GT(model.boxes.size(), 8U);
+}
+
+/// A later CALL is another place of the program, with copies of its own.
+TEST(GraphModel, ALaterCallHasBoxesOfItsOwn) {
+    const char* const source =
+        "PROGRAM P MOTOR MAC140; SEQUENCE Press_Anew(VAR_INPUT Button) STEP Wait: OWN ERROR; IF "
+        "R_TRIG(Button) "
+        "THEN RETURN; END_IF END_STEP END_SEQUENCE\n"
+        "STEP One: OWN ERROR; CALL Press_Anew(IN0); NEXT := Two; END_STEP\n"
+        "STEP Two: OWN ERROR; CALL Press_Anew(IN1); NEXT := One; END_STEP END_PROGRAM\n";
+    const Compilation program = test::compiled(source);
+    std::size_t waits = 0;
+    for (const GraphModel::Box& box : model_of(program, source).boxes) {
+        if (box.steps.size() < 2) continue;
+        ++waits;
+        ASSERT_EQ(box.ways.size(), 1U);
+        EXPECT_NE(box.ways[0].condition.find("R_TRIG"), std::string::npos);
+    }
+    EXPECT_EQ(waits, 2U);
+}
+
+TEST(GraphModel, NumbersOfStepsAreToldInRanges) {
+    EXPECT_EQ(numbers_text({4}), "step 4");
+    EXPECT_EQ(numbers_text({4, 9, 10, 11, 13}), "steps 4, 9 to 11, 13");
+}
+
 TEST(GraphModel, AnOnConditionOfTwoStepsIsANote) {
     const char* const source =
         "PROGRAM P MOTOR MAC140; ON IN0 IN A, B NEXT := C; STEP A: OWN ERROR; IF IN1 THEN NEXT := B; END_IF "

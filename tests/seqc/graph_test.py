@@ -295,13 +295,26 @@ class Graph(unittest.TestCase):
         self.assertEqual((drawing["motor"], drawing["terminals"][1]), ("MAC140", {"terminal": "IN3", "name": "Shut"}))
 
     def test_helper_steps_are_told_from_the_programs_own(self):
-        svg = draw(EXAMPLES / "bag_sealer.seq")
-        kinds = {}
-        for group in svg.findall(f"{SVG}g"):
-            kinds.setdefault(group.get("class").split()[1], []).append(group.find(f"{SVG}rect"))
-        self.assertTrue(kinds["copy"])
-        self.assertTrue(all(rect.get("stroke-dasharray") for rect in kinds["copy"]))
-        self.assertFalse(any(rect.get("stroke-dasharray") for rect in kinds["step"]))
+        table = self.write("bag_sealer.bin", "")
+        subprocess.run([SEQC, "build", EXAMPLES / "bag_sealer.seq", "-o", table, "--quiet"], check=True)
+        for file, kind in ((EXAMPLES / "egg_turner.seq", "helper"), (table, "copy")):
+            kinds = {}
+            for group in draw(file).findall(f"{SVG}g"):
+                kinds.setdefault(group.get("class").split()[1], []).append(group.find(f"{SVG}rect"))
+            self.assertTrue(kinds[kind])
+            self.assertTrue(all(rect.get("stroke-dasharray") for rect in kinds[kind]))
+            self.assertFalse(any(rect.get("stroke-dasharray") for rect in kinds["step"]))
+
+    def test_a_step_of_a_program_is_one_box_for_all_its_steps_of_the_table(self):
+        for file in sorted(EXAMPLES.glob("*.seq")):
+            with self.subTest(file=file.name):
+                nodes = [node for node in graph(file)["nodes"] if node["kind"] != "note"]
+                self.assertFalse([node["name"] for node in nodes if node["kind"] == "copy"])
+                steps = [step for node in nodes for step in node["steps"]]
+                table = self.write("table.bin", "")
+                subprocess.run([SEQC, "build", file, "-o", table, "--quiet"], check=True)
+                drawn = [node["step"] for node in graph(table)["nodes"] if node["kind"] != "note"]
+                self.assertEqual(sorted(steps), sorted(drawn))
 
     def test_a_png_is_one_and_fits_the_page(self):
         file = EXAMPLES / "pick_and_place.seq"

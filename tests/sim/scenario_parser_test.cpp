@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/scenario.h"
 
 namespace nplc::sim {
@@ -361,6 +363,82 @@ TEST(ScenarioParser, OrdersAreThoseThatCanBe) {
     EXPECT_EQ(wrong("V1 := 70000"), "1:15: 70000 is no value of v1, so this is never ordered\n");
     EXPECT_EQ(wrong("Slow := 5"),
               "1:15: the motor has no register \"slow\", nor has the program a name for one\n");
+}
+
+Names names_with_set_points() {
+    Names names = program_names();
+    set_points::SetPoint length;
+    length.name = "Length";
+    length.unit = "mm";
+    length.steps_per_unit = 819.2;
+    length.step = 0.1;
+    length.initial = 8192;
+    length.lowest = 8192;
+    length.highest = 163'840;
+    set_points::SetPoint dwell = length;
+    dwell.name = "Dwell";
+    dwell.kind = set_points::ValueKind::timer;
+    dwell.unit = "s";
+    dwell.steps_per_unit = 1000;
+    dwell.lowest = dwell.initial = 100;
+    dwell.highest = 5000;
+    set_points::SetPoint pieces = length;
+    pieces.name = "Pieces";
+    pieces.kind = set_points::ValueKind::counter;
+    pieces.unit = "";
+    pieces.steps_per_unit = 1;
+    pieces.step = 0;
+    pieces.lowest = pieces.initial = 1;
+    pieces.highest = 500;
+    names.set_points = {{length, dwell, pieces}, 1};
+    return names;
+}
+
+// 90 mm are 73728 counts; 91 mm are 74547.2.
+TEST(ScenarioParser, SetPointsAreComparedInTheirUnits) {
+    const Names names = names_with_set_points();
+    const auto holds = [&](const std::string& condition, std::array<std::int32_t, 3> values) {
+        const auto parsed = parse_scenario("expect at end " + condition, "x.scn", names);
+        EXPECT_TRUE(parsed.mistakes.empty()) << condition << ": " << parsed.mistakes.front().message;
+        Snapshot snapshot;
+        std::copy(values.begin(), values.end(), snapshot.set_points.begin());
+        return !parsed.mistakes.empty() || parsed.scenario.expectations[0].condition.holds(snapshot, names);
+    };
+    const std::array<std::int32_t, 3> values{73'728, 800, 20};
+    for (const char* condition :
+         {"Length = 90 mm", "length = 90", "Length = 91 mm +- 1 mm", "Length = 91 +- 1", "Length <> 80 mm",
+          "Length < 90.01 mm", "Length > 89.9 mm and Length >= 90 mm", "Dwell = 800 ms", "Dwell = 0.8 s",
+          "Dwell = 0.8", "Dwell = 1 s +- 200 ms", "Pieces = 20", "Pieces > 19", "Pieces = 25 +- 5"})
+        EXPECT_TRUE(holds(condition, values)) << condition;
+    for (const char* condition : {"Length = 90.1 mm", "Length = 91.1 mm +- 1 mm", "Length <> 90 mm",
+                                  "Length < 90 mm", "Dwell = 900 ms", "Pieces = 21"})
+        EXPECT_FALSE(holds(condition, values)) << condition;
+    EXPECT_TRUE(holds("Length = 91 mm +- 0 mm", {74'547, 800, 20})) << "rounded to the register's steps";
+    const auto parsed = parse_scenario("expect at end Length = 80 mm and Dwell = 1 s", "x.scn", names);
+    Snapshot snapshot;
+    snapshot.set_points = {73'728, 800, 20};
+    EXPECT_EQ(parsed.scenario.expectations[0].condition.seen(snapshot, names),
+              "Length = 90 mm, Dwell = 0.8 s");
+}
+
+TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
+    const Names names = names_with_set_points();
+    const auto wrong = [&](const std::string& text) { return all_mistakes(text, names); };
+    EXPECT_EQ(wrong("expect Lenght = 90 mm"), "1:8: \"Lenght\" is not known; did you mean Length?\n");
+    EXPECT_EQ(wrong("expect Length = 90 cm"), "1:20: \"cm\" is no unit of Length; write mm\n");
+    EXPECT_EQ(wrong("expect Length = 90 mm +- 1 ms"), "1:28: \"ms\" is no unit of Length; write mm\n");
+    EXPECT_EQ(wrong("expect Pieces = 3 mm"), "1:19: Pieces has no unit; write the number alone\n");
+    EXPECT_EQ(wrong("expect Dwell = 2 mm"), "1:18: \"mm\" is no unit of Dwell; write ms or s\n");
+    EXPECT_EQ(wrong("expect Length = 300 mm"),
+              "1:17: 300 mm is out of range; Length takes 10 mm to 200 mm in steps of 0.1 mm\n");
+    EXPECT_EQ(wrong("expect Length = 90.05 mm"),
+              "1:17: 90.05 mm is between two steps, 90 or 90.1; Length takes 10 mm to 200 mm in steps of 0.1 "
+              "mm\n");
+    EXPECT_EQ(wrong("expect Length > 90 mm +- 1 mm"), "1:23: a tolerance (+-) goes with = only\n");
+    EXPECT_EQ(wrong("expect Length"),
+              "1:14: the line ends too early; write a comparison, such as Length = 0\n");
+    EXPECT_EQ(wrong("at 1 s Length := 90 mm"),
+              "1:8: Length is a set-point; write set Length := and its value\n");
 }
 
 TEST(ScenarioParser, StepNumbersAreThoseOfTheTable) {

@@ -8,7 +8,6 @@
 
 #include "base/bytes.h"
 #include "base/crc32.h"
-#include "nanoctl/status.h"
 #include "set_points/values.h"
 
 namespace nplc::nanoctl {
@@ -97,6 +96,7 @@ KeptSetPoints read_set_points(GatewayClient& gateway) {
 std::vector<set_points::Recipe> read_recipes(GatewayClient& gateway, const KeptSetPoints& kept) {
     std::vector<set_points::Recipe> recipes;
     for (std::size_t number = 1; number <= kept.recipes; ++number) {
+        if (read_view(gateway, number, 1).front() == 0) continue;
         const auto bytes = read_view(gateway, number, set_points::kRecipeBytes);
         set_points::Recipe recipe =
             set_points::decode_recipe(bytes, kept.record, static_cast<std::uint8_t>(number));
@@ -105,25 +105,20 @@ std::vector<set_points::Recipe> read_recipes(GatewayClient& gateway, const KeptS
     return recipes;
 }
 
+set_points::Record read_active_record(GatewayClient& gateway) {
+    if ((gateway.read(gw::SET_POINT_COUNT) & 0xFF) == 0) return {};
+    return read_record(gateway);
+}
+
 KnownChanges read_changes(GatewayClient& gateway) {
     constexpr std::size_t kKept = 16;
-    if ((gateway.read(gw::SET_POINT_COUNT) & 0xFF) == 0) return {};
-    KnownChanges known{read_record(gateway), {}};
+    KnownChanges known{read_active_record(gateway), {}};
+    if (known.record.values.empty()) return {};
     constexpr std::size_t kWhole = gw::kSetPointDataBytes / gw::kChangeBytes * gw::kChangeBytes;
     const auto bytes = read_view(gateway, static_cast<std::size_t>(gw::SetPointView::changes),
                                  kKept * gw::kChangeBytes, kWhole);
     known.changes = set_points::decode_changes(bytes, known.record);
     return known;
-}
-
-std::string read_dropped(GatewayClient& gateway, const set_points::Record& record) {
-    std::uint16_t dropped = 0;
-    for (const LogEntry& entry : read_log(gateway)) {
-        const auto event = static_cast<gw::Event>(entry.event);
-        if (event == gw::Event::table_activated) dropped = 0;
-        if (event == gw::Event::set_points_dropped) dropped = entry.detail;
-    }
-    return set_points::names_of(record, dropped);
 }
 
 namespace {

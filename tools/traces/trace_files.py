@@ -63,7 +63,9 @@ class Symbols:
             self.program = str(file["program"])
             self.crc32 = str(file["table"]["crc32"])
             self.steps = {int(step["number"]): str(step["name"]) for step in file["steps"]}
-            self.copies = {int(step["number"]): int(step["copy_of"]) for step in file["steps"] if "copy_of" in step}
+            # A step of a later CALL of a SEQUENCE is a copy too, and a place of its own.
+            self.copies = {int(step["number"]): int(step["copy_of"]) for step in file["steps"]
+                           if "copy_of" in step and str(step.get("made_for", "")).startswith("copy of ")}
             names = [("IN", file["inputs"]), ("OUT", file["outputs"])]
             self.signals = {f"{kind}{i}": str(name) for kind, all_names in names for i, name in enumerate(all_names)}
             free = {entry.get("register") for entry in file.get("set_points", [])}

@@ -274,6 +274,7 @@ void Axis::serve(base::Instant now) {
     if (const auto news = faces_.seat().take_news())
         journal_.write(LogLevel::notice,
                        fmt::format("operator: {} took over from {}", news->by.name, news->from.name));
+    reporter_.set_store(store_.is_open());
     reporter_.report(*controller_, motor_, faces_.seat().holder(), now);
     if (controller_->reset_asked() && !store_.is_busy()) reset(now);
 }

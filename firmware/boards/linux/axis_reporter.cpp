@@ -40,10 +40,16 @@ std::string client_of(const gateway::EventLog::Entry& entry, const faces::Sitter
     return by_person == (holder->side == faces::Side::person) ? holder->name : std::string();
 }
 
+bool is_of_store(const gateway::EventLog::Entry& entry) {
+    return entry.event == static_cast<std::uint8_t>(Event::store_damaged) ||
+           entry.event == static_cast<std::uint8_t>(gateway::SafeReason::bad_settings);
+}
+
 }  // namespace
 
 void AxisReporter::start(base::Instant now) {
     events_.restart();
+    drops_.restart();
     tell_silence_at_ = now + kFirstAnswer;
 }
 
@@ -57,6 +63,7 @@ void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, con
 
 void AxisReporter::report_events(gateway::Controller& controller, const faces::Sitter* holder) {
     events_.look(controller.sequence().log(), [&](const gateway::EventLog::Entry& entry) {
+        if (!has_store_ && is_of_store(entry)) return;
         LogMessage message = in_words(entry);
         if (const std::string changes = changes_of(entry, controller); !changes.empty())
             message.text += ": " + changes;
@@ -66,7 +73,18 @@ void AxisReporter::report_events(gateway::Controller& controller, const faces::S
             fields.push_back({"CLIENT", client});
         }
         journal_.write(message.level, message.text, fields);
+        if (static_cast<Event>(entry.event) == Event::table_activated) report_drops(controller);
     });
+    drops_.look(controller);
+}
+
+void AxisReporter::report_drops(gateway::Controller& controller) {
+    for (const set_points::Dropped& one : drops_.exchanged(controller)) {
+        journal_.write(LogLevel::warning, "set-points: " + set_points::text_of(one),
+                       {{"EVENT", "set_point_dropped"},
+                        {"SET_POINT", one.name},
+                        {"REASON", std::string(set_points::key_of(one.why))}});
+    }
 }
 
 void AxisReporter::report_link(MotorPart& motor, base::Instant now) {

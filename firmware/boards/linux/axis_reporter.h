@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "faces/drop_watch.h"
 #include "faces/tally.h"
 #include "gateway/controller.h"
 #include "journal.h"
@@ -19,6 +20,8 @@ class AxisReporter {
 
     /// To be called with a new log.
     void start(base::Instant now);
+    /// Without a store what it holds is not damaged, but out of reach, which is told elsewhere.
+    void set_store(bool is_there) { has_store_ = is_there; }
     /// `holder`: the present operator; null: none.
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                 base::Instant now);
@@ -27,12 +30,15 @@ class AxisReporter {
 
   private:
     void report_events(gateway::Controller& controller, const faces::Sitter* holder);
+    void report_drops(gateway::Controller& controller);
     void report_link(MotorPart& motor, base::Instant now);
 
     AxisJournal& journal_;
     base::Instant tell_silence_at_ = base::kNever;
     faces::NewEvents events_;
+    faces::DropWatch drops_;
     motor::Link told_link_ = motor::Link::down;
+    bool has_store_ = true;
 };
 
 }  // namespace nplc::boards

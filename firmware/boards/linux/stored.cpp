@@ -13,6 +13,8 @@
 #include "gateway/controller.h"
 #include "motor/any_driver.h"
 #include "no_ports.h"
+#include "panel/names.h"
+#include "panel_part.h"
 #include "table_file.h"
 
 namespace nplc::boards {
@@ -73,6 +75,9 @@ class Rehearsal {
                             kTableArea, memory_, settings_, gateway::StartCause::service);
     }
 
+    /// Of the table that would run; 0: none.
+    std::uint32_t crc() const { return controller_->tables().active_crc(); }
+
     void look(StoredFindings& found) {
         const std::string axis = fmt::format("axis[{}]", config_.name);
         for (const StoredSetting& other : stored_settings(settings_, config_))
@@ -105,6 +110,20 @@ class Rehearsal {
     motor::AnyDriver driver_;
     std::optional<gateway::Controller> controller_;
 };
+
+/// A program whose SCALE the panel shows, while the faces for a plant show another; empty: they agree.
+std::string scale_note(const Config& config, std::size_t index, std::uint32_t crc) {
+    const AxisConfig& axis = config.axes[index];
+    const bool has_plant = config.modbus.listen.is_there() || config.modbus.rtu_port.is_there() ||
+                           config.metrics.listen.is_there() || config.mqtt.broker.is_there();
+    if (!has_plant && panel::is_same(axis.scaling, {})) return {};
+    const std::string names = StoredNames(config).find(index, crc).text;
+    if (names.empty() || panel::is_same(panel::scale_in(names), axis.scaling)) return {};
+    return fmt::format(
+        "axis[{}].scale: is {}, the SCALE of its program {}: Modbus, MQTT and metrics show "
+        "positions in the first, the panel in the second",
+        axis.name, panel::in_words(axis.scaling), panel::in_words(panel::scale_in(names)));
+}
 
 std::string fault_of(const std::string& which, unsigned term, Result why,
                      const gateway::SettingsManager& settings) {
@@ -161,14 +180,18 @@ LoadedTable load_first_table(gateway::TableManager& tables, const gateway::Setti
 
 StoredFindings look_at_stored(const Config& config) {
     StoredFindings found;
-    for (const AxisConfig& axis : config.axes) {
+    for (std::size_t i = 0; i < config.axes.size(); ++i) {
+        const AxisConfig& axis = config.axes[i];
         StoreCopy store;
         if (const auto error = store.read_file(store_file(config.state_directory + "/" + axis.name));
             !error.empty()) {
             found.troubles.push_back({axis.line, fmt::format("axis[{}]", axis.name), error});
             continue;
         }
-        Rehearsal(axis, store).look(found);
+        Rehearsal rehearsal(axis, store);
+        rehearsal.look(found);
+        if (std::string note = scale_note(config, i, rehearsal.crc()); !note.empty())
+            found.notes.push_back(std::move(note));
     }
     return found;
 }

@@ -46,7 +46,7 @@ LoadedTable load_first_table(gateway::TableManager& tables, const gateway::Setti
 
 struct StoredFindings {
     std::vector<Mistake> troubles;   ///< with any, the axis will not run as it is
-    std::vector<std::string> notes;  ///< settings that differ from the configuration, a line each
+    std::vector<std::string> notes;  ///< what differs from the configuration, a line each
 };
 /// Checks what the service would do with its axes' stored data. Changes nothing.
 StoredFindings look_at_stored(const Config& config);

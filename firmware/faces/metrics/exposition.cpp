@@ -46,6 +46,8 @@ constexpr Row kRows[] = {
     {"ready", "ready"},
     {"running", "running"},
     {"held", "held"},
+    {"waiting", "waiting"},
+    {"stop_unconfirmed", "stop_unconfirmed"},
     {"safe", "safe"},
     {"error", "error"},
     {"in_position", "in_position"},

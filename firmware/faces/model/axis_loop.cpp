@@ -104,7 +104,7 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     const bool is_wanted = model_.is_wanted(wall);
     if (!is_wanted && !model_.wants_motor(wall)) return;
     if (!reader_.is_for_face()) {
-        reader_.look_around(controller, image_, now, wall);
+        reader_.look_around(controller, image_, now, wall, model_.wants_trend(wall));
         survey();
     }
     if (is_wanted && wall >= image_.taken + AxisModel::kPeriod) take_image(controller);

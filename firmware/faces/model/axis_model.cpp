@@ -28,6 +28,15 @@ bool AxisModel::wants_motor(base::Instant now) const {
            now.time_since_epoch().count() - asked <= base::Microseconds(kMotorInterest).count();
 }
 
+void AxisModel::want_trend(base::Instant now) {
+    trend_asked_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+}
+
+bool AxisModel::wants_trend(base::Instant now) const {
+    return now.time_since_epoch().count() - trend_asked_.load(std::memory_order_relaxed) <=
+           base::Microseconds(kInterest).count();
+}
+
 AxisImage AxisModel::image_with_why(base::Instant now, std::shared_ptr<const Findings>* findings) {
     why_asked_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
     AxisImage image = this->image(now);

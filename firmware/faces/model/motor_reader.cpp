@@ -1,6 +1,7 @@
 #include "faces/motor_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <utility>
 
@@ -13,6 +14,16 @@ constexpr std::uint8_t kMostFailures = 2;
 constexpr base::Microseconds kLongest{1'000'000};
 constexpr base::Microseconds kBusy{1'000};
 constexpr base::Microseconds kPause{10'000'000};  ///< without a read, after which all is read anew
+
+constexpr auto kPosition = MotorItem::position;
+constexpr auto kVelocity = MotorItem::velocity;
+constexpr auto kTorque = MotorItem::torque;
+using Turn = std::optional<MotorItem>;
+constexpr Turn kOther{};  ///< the next one of the others
+constexpr std::array<Turn, 8> kUsual{kPosition, kVelocity, kPosition, kTorque,
+                                     kPosition, kVelocity, kPosition, kOther};
+/// For who looks at a trend: no more reads, and the torque as often as the position.
+constexpr std::array<Turn, 7> kTrend{kPosition, kVelocity, kTorque, kPosition, kVelocity, kTorque, kOther};
 
 std::int32_t signed_value(const registers::Register& reg, std::uint32_t value) {
     if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(value);
@@ -102,20 +113,17 @@ MotorItem MotorReader::next_other(registers::Model model) {
     return item;
 }
 
-/// Position, speed, position, and then alternately the torque and one of the others. At first, and after a
-/// pause, every second read is of the others, until each was read once.
-void MotorReader::choose_item(const AxisImage& image) {
+/// In the order of kUsual or kTrend. At first, and after a pause, every second read is of the others, until
+/// each was read once.
+void MotorReader::choose_item(const AxisImage& image, bool has_trend) {
     const registers::Model model = model_of(image);
     const unsigned turn = turn_++;
-    MotorItem item = turn % 2 == 0 ? MotorItem::position : MotorItem::velocity;
-    if (hurried_ != 0 && turn % 4 >= 2) {
-        --hurried_;
-        item = hurried_ == 0 ? MotorItem::torque : next_other(model);
-    } else if (turn % 8 == 3) {
-        item = MotorItem::torque;
-    } else if (turn % 8 == 7) {
-        item = next_other(model);
+    Turn next = has_trend ? kTrend[turn % kTrend.size()] : kUsual[turn % kUsual.size()];
+    if (hurried_ != 0) {
+        next = turn % 2 == 0 ? kPosition : kVelocity;
+        if (turn % 4 >= 2) next = --hurried_ == 0 ? Turn(kTorque) : kOther;
     }
+    const MotorItem item = next ? *next : next_other(model);
     const registers::Register& found = *register_of(item, model);
     begin({.reg = found.number, .longword = registers::is_32_bit(found.format)});
     item_ = item;
@@ -170,13 +178,13 @@ void MotorReader::note_item(AxisImage& image, base::Instant wall) {
 }
 
 void MotorReader::look_around(gateway::Controller& controller, AxisImage& image, base::Instant now,
-                              base::Instant wall) {
+                              base::Instant wall, bool has_trend) {
     if (period_.count() == 0) return;
     if (!wanted_) {
         if (wall >= due_) {
             if (wall - due_ > kPause) hurried_ = kHurried;
             due_ = wall + period_;
-            choose_item(image);
+            choose_item(image, has_trend);
         } else if (surveys()) {
             choose_surveyed();
         }

@@ -26,8 +26,8 @@ constexpr std::uint8_t kFirstEvent = 16;
 
 /// Validity of a motor value: more than twice the time after which it is read again.
 base::Milliseconds limit_of(faces::MotorItem item) {
-    if (faces::is_frequent(item)) return base::Milliseconds(2'000);
-    return base::Milliseconds(item == faces::MotorItem::torque ? 3'000 : 20'000);
+    const bool is_often = faces::is_frequent(item) || item == faces::MotorItem::torque;
+    return base::Milliseconds(is_often ? 2'000 : 20'000);
 }
 
 /// They change continuously: ten updates a second are enough.
@@ -191,13 +191,20 @@ std::uint32_t AxisFeed::age(base::Instant now) const {
 }
 
 void AxisFeed::look(base::Instant now) {
+    constexpr base::Milliseconds kSeen{2'000};  // what was changed meanwhile is not known after longer
     const std::uint64_t before = image_.number;
+    const base::Instant seen = image_.taken;
     std::shared_ptr<const faces::Findings> why;
+    model_.want_trend(now);
     image_ = model_.image_with_why(now, &why);
     if (image_.number == 0) return;
     take_why(why);
     if (set_points_.look(image_, model_.set_points())) ++set_points_number_;
-    if (image_.number != before) take_events();
+    if (image_.taken - seen > kSeen) static_cast<void>(set_points_.take_dropped());
+    if (image_.number != before) {
+        take_events();
+        static_cast<void>(set_points_.take_dropped());
+    }
     const auto table = model_.table();
     if (has_program_ && table == table_) return;
     table_ = table;
@@ -233,9 +240,13 @@ void AxisFeed::take_events() {
 }
 
 /// Adds the changed values to the log's text.
-std::string AxisFeed::event_text(const LoggedEvent& event) const {
+std::string AxisFeed::event_text(const LoggedEvent& event) {
     std::string text = event_in_words(event.code, event.detail);
     const auto is = [&](own::Event what) { return event.code == static_cast<std::uint8_t>(what); };
+    if (is(own::Event::table_activated)) {
+        for (const set_points::Dropped& one : set_points_.take_dropped())
+            text += "; " + set_points::text_of(one);
+    }
     if (is(own::Event::set_points_dropped) && set_points_.book().is_of(image_))
         return text + ": " + set_points::names_of(set_points_.record(), event.detail);
     if (is(own::Event::recipe_loaded) || is(own::Event::recipe_saved) || is(own::Event::recipe_deleted))
@@ -306,6 +317,8 @@ std::string AxisFeed::info_text() const {
                 {"motor", motor},
                 {"counts_per_rev", scale.counts_per_rev},
                 {"samples_per_second", scale.samples_per_second},
+                {"unit", model_.scaling().unit},
+                {"per_revolution", model_.scaling().per_revolution},
                 {"error_bits", error_bits(model)},
                 {"modes", modes_of(model)}}
         .dump();

@@ -55,7 +55,7 @@ class AxisFeed {
 
   private:
     void take_events();
-    std::string event_text(const LoggedEvent& event) const;
+    std::string event_text(const LoggedEvent& event);
     void take_why(const std::shared_ptr<const faces::Findings>& why);
     void take_program();
 

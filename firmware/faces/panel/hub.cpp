@@ -41,6 +41,7 @@ void Hub::serve(WebServer& server) {
 }
 
 void Hub::opened(ClientId client, const std::string& peer) {
+    if (sessions_.empty()) looked_ = clock_.now();  // nothing ticks without clients
     Session& session = sessions_.emplace(client, Session(peer, feeds_.size())).first->second;
     session.opened = clock_.now();
     session.rights.read = options_.password.empty();
@@ -64,6 +65,7 @@ void Hub::tick() {
     if (sessions_.empty()) return;
     bell_.arm();
     const base::Instant now = clock_.now();
+    watch_time(now);
     for (AxisFeed& feed : feeds_) feed.look(now);
     // Sending may end a session.
     std::vector<ClientId> clients;
@@ -76,6 +78,14 @@ void Hub::tick() {
         if (const auto found = sessions_.find(client); found != sessions_.end())
             tell(client, found->second, now);
     }
+}
+
+/// After a gap the messages of all clients are read within the next ticks, in any order.
+void Hub::watch_time(base::Instant now) {
+    constexpr base::Milliseconds kTick{WebServer::kTickMilliseconds};
+    constexpr base::Milliseconds kHalted{500};
+    if (now - looked_ > kTick + kHalted) halted_until_ = now + 2 * kTick;
+    looked_ = now;
 }
 
 void Hub::send(ClientId client, Session& session, std::string text) {

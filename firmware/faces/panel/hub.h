@@ -51,6 +51,9 @@ class Hub final : public WebHandler {
     void login(ClientId client, Session& session, const Request& request);
     void simulate(ClientId client, Session& session, const Request& request);
     void begin_upload(ClientId client, Session& session, const Request& request);
+    void watch_time(base::Instant now);
+    /// What is received now may have waited while the process was halted.
+    bool is_late() const { return looked_ < halted_until_; }
     void submit(ClientId client, Session& session, std::size_t axis, const Request& request);
     bool join(ClientId client, Session& session, std::size_t axis);
     std::optional<std::size_t> axis_of(const Request& request) const;
@@ -67,6 +70,8 @@ class Hub final : public WebHandler {
     ports::Clock& clock_;
     faces::Bell bell_;
     WebServer* server_ = nullptr;
+    base::Instant looked_{};  ///< the last time that it ran
+    base::Instant halted_until_{};
     std::map<ClientId, Session> sessions_;
 };
 

@@ -45,6 +45,7 @@ std::string_view result_word(faces::Result result) {
 void Hub::received(ClientId client, std::string_view text) {
     const auto found = sessions_.find(client);
     if (found == sessions_.end()) return;
+    watch_time(clock_.now());
     Session& session = found->second;
     const Request request = Request::read(text);
     // A stop is accepted even from a client that sends too much.
@@ -108,6 +109,8 @@ void Hub::handle(ClientId client, Session& session, const Request& request) {
     if (request.what == "ping") return answer(client, request, "done", "");
     const bool is_stop = request.what == "command" && is_one_of(request.text("name"), kStops);
     if (!allows(client, session, request, is_stop)) return;
+    if (is_late() && !is_stop)
+        return answer_completion(client, *request.id, {.result = faces::Result::too_late});
     if (request.what == "sim" && simulation_ != nullptr) return simulate(client, session, request);
     const bool is_upload = request.what == "upload";
     const bool is_of_set_points = request.what == "set_points" || request.what == "recipe";

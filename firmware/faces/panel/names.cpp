@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace nplc::panel {
@@ -14,6 +15,30 @@ bool is_for_table(std::string_view text, std::uint32_t crc) {
     const auto found = table->find("crc32");
     return found != table->end() && found->is_string() &&
            found->get<std::string>() == fmt::format("{:08X}", crc);
+}
+
+faces::Scaling scale_in(std::string_view text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto scale = json.is_object() ? json.value("scale", nlohmann::json()) : nlohmann::json();
+    if (!scale.is_object()) return {};
+    const auto number = [&scale](const char* name) {
+        const auto found = scale.find(name);
+        return found != scale.end() && found->is_number() ? found->get<double>() : 0.0;
+    };
+    const auto unit = scale.find("unit");
+    if (unit == scale.end() || !unit->is_string() || number("revolutions") <= 0 || number("length") <= 0)
+        return {};
+    return {.unit = unit->get<std::string>(), .per_revolution = number("length") / number("revolutions")};
+}
+
+bool is_same(const faces::Scaling& a, const faces::Scaling& b) {
+    constexpr double kRounding = 1e-9;
+    return a.unit == b.unit &&
+           std::abs(a.per_revolution - b.per_revolution) <= kRounding * std::abs(b.per_revolution);
+}
+
+std::string in_words(const faces::Scaling& scaling) {
+    return fmt::format("{:.9g} {} a revolution", scaling.per_revolution, scaling.unit);
 }
 
 }  // namespace nplc::panel

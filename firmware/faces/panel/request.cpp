@@ -25,8 +25,10 @@ std::string shown(std::string_view text) {
     return result;
 }
 
+/// By its name, or reset_error, which is the motor's.
 Asked named_command(const Request& request, base::Instant now) {
     const std::string name = request.text("name");
+    if (name == "reset_error") return {Command::reset_error(now), {}};
     for (const own::Command command : kCommands) {
         if (own::name_of(command) == name) return {Command::of(command, now), {}};
     }

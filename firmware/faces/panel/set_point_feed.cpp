@@ -43,9 +43,16 @@ bool SetPointFeed::look(const faces::AxisImage& image, std::shared_ptr<const fac
     }
     room_ = image[own::SET_POINT_COUNT] >> 16 & 0xFF;
     if (book == book_ && now == shown_) return false;
+    if (book->record_crc != book_->record_crc) look_for_drops(book->record);
     shown_ = now;
     book_ = std::move(book);
     return true;
+}
+
+void SetPointFeed::look_for_drops(const set_points::Record& now) {
+    std::vector<std::int32_t> wanted;
+    for (std::size_t i = 0; i < record().values.size(); ++i) wanted.push_back(value(kWanted, i));
+    dropped_ = set_points::dropped_by({record(), wanted, book_->recipes}, now);
 }
 
 std::int32_t SetPointFeed::value(std::size_t first, std::size_t index) const {

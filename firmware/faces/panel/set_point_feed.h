@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "faces/set_point_book.h"
+#include "set_points/dropped.h"
 
 namespace nplc::panel {
 
@@ -24,16 +26,20 @@ class SetPointFeed {
     std::size_t room() const { return room_; }
     /// "Length 80 mm to 100 mm, Pieces 3 to 5": the changes at this uptime; empty if unknown.
     std::string changes_at(std::uint32_t milliseconds) const;
+    /// What the present table did not take of the values and recipes before it; told once.
+    std::vector<set_points::Dropped> take_dropped() { return std::exchange(dropped_, {}); }
     /// Name of a recipe that the event log identifies by number.
     std::string recipe_name(unsigned number) const;
 
   private:
     std::int32_t value(std::size_t first, std::size_t index) const;
+    void look_for_drops(const set_points::Record& now);
 
     /// SET_POINT_STATE, then the values in force and the wanted ones.
     std::array<std::uint32_t, 1 + 2 * registers::gateway::kSetPoints> shown_{};
     std::shared_ptr<const faces::SetPointBook> book_ = std::make_shared<const faces::SetPointBook>();
     std::size_t room_ = 0;
+    std::vector<set_points::Dropped> dropped_;
 };
 
 }  // namespace nplc::panel

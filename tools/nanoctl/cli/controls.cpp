@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/dropped.h"
 #include "cli/session.h"
+#include "nanoctl/set_points.h"
 #include "nanoctl/stopping.h"
 #include "nanoctl/texts.h"
 
@@ -27,9 +29,14 @@ void start(Session& session) {
 }
 
 void activate(Session& session) {
-    session.gateway().activate();
-    const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
-    session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
+    GatewayClient& gateway = session.gateway();
+    const std::optional<ValuesBefore> before = read_before(gateway, {});
+    gateway.activate();
+    const std::uint32_t crc = gateway.read(gw::TABLE_CRC);
+    std::vector<set_points::Dropped> dropped;
+    if (before) dropped = read_dropped(gateway, before, read_active_record(gateway));
+    session.tell(fmt::format("the stored table is active, CRC {:08X}h{}", crc, lines_of(dropped)),
+                 {{"crc32", crc}, {"dropped", json_of(dropped)}});
 }
 
 void reset(Session& session) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/dropped.h"
 #include "cli/session.h"
 #include "command_line/files.h"
 #include "set_points/recipe_file.h"
@@ -19,7 +20,7 @@ using gw::SetPointRequest;
 using set_points::NewValue;
 using set_points::Recipe;
 
-Json json_of(const set_points::SetPoint& point, const KeptSetPoints& kept, std::size_t index) {
+Json point_json(const set_points::SetPoint& point, const KeptSetPoints& kept, std::size_t index) {
     const auto number = [&](std::int32_t value) { return set_points::shown_value(point, value); };
     return {{"name", point.name},
             {"value", number(kept.wanted[index])},
@@ -45,8 +46,9 @@ std::string state_text(const KeptSetPoints& kept) {
     return text;
 }
 
-void show_set_points(Session& session) {
-    const KeptSetPoints kept = read_set_points(session.gateway());
+/// `dropped`: of what was loaded before.
+void tell_set_points(Session& session, const KeptSetPoints& kept,
+                     const std::vector<set_points::Dropped>& dropped) {
     std::string text;
     Json all = Json::array();
     for (std::size_t i = 0; i < kept.record.values.size(); ++i) {
@@ -57,13 +59,19 @@ void show_set_points(Session& session) {
                 : fmt::format(", in force {}", set_points::text_of(point, kept.in_force[i]));
         text += fmt::format("{}{:<18} {:<12} {}{}", text.empty() ? "" : "\n", point.name,
                             set_points::text_of(point, kept.wanted[i]), set_points::range_text(point), force);
-        all.push_back(json_of(point, kept, i));
+        all.push_back(point_json(point, kept, i));
     }
-    session.tell(text + state_text(kept), {{"set_points", all},
-                                           {"waits", (kept.state & gw::kChangeWaits) != 0},
-                                           {"damaged", (kept.state & gw::kValuesDamaged) != 0},
-                                           {"recipe", (kept.state & gw::kActiveRecipe) >> 8},
-                                           {"differs", (kept.state & gw::kRecipeDiffers) != 0}});
+    session.tell(text + state_text(kept) + lines_of(dropped),
+                 {{"set_points", all},
+                  {"waits", (kept.state & gw::kChangeWaits) != 0},
+                  {"damaged", (kept.state & gw::kValuesDamaged) != 0},
+                  {"recipe", (kept.state & gw::kActiveRecipe) >> 8},
+                  {"differs", (kept.state & gw::kRecipeDiffers) != 0},
+                  {"dropped", json_of(dropped)}});
+}
+
+void show_set_points(Session& session) {
+    tell_set_points(session, read_set_points(session.gateway()), {});
 }
 
 NewValue parse_value(const std::string& text, const set_points::Record& record) {
@@ -161,8 +169,9 @@ Recipe ask_for(SetPointRequest kind, Session& session, const std::string& name) 
 }
 
 void load_recipe(Session& session, const std::string& name) {
-    ask_for(SetPointRequest::load_recipe, session, name);
-    show_set_points(session);
+    const Recipe recipe = ask_for(SetPointRequest::load_recipe, session, name);
+    const KeptSetPoints kept = read_set_points(session.gateway());
+    tell_set_points(session, kept, dropped_by_loading(recipe, kept));
 }
 
 void delete_recipe(Session& session, const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include "base/crc32.h"
 #include "cli/certificates.h"
+#include "cli/dropped.h"
 #include "cli/session.h"
 #include "digest/digest.h"
 #include "nanoctl/set_points.h"
@@ -48,7 +49,9 @@ class ProgressLine {
     base::Instant begun_;
 };
 
-void make_active(Session& session, const UploadOptions& options) {
+/// What of the kept values was dropped for it.
+std::vector<set_points::Dropped> make_active(Session& session, const UploadOptions& options,
+                                             const set_points::Record& record) {
     GatewayClient& gateway = session.gateway();
     const Status status = session.status();
     if (status.run_state != gw::RunState::stopped) {
@@ -58,6 +61,7 @@ void make_active(Session& session, const UploadOptions& options) {
                           "`nanoctl activate`, or upload with --stop");
         stop_machine(gateway, gw::Command::stop);
     }
+    const std::optional<ValuesBefore> before = read_before(gateway, record);
     try {
         gateway.activate();
     } catch (const Interrupted&) {
@@ -68,6 +72,17 @@ void make_active(Session& session, const UploadOptions& options) {
             fmt::format("{}; the table is stored, and `nanoctl verify` tells whether it is active",
                         error.what()));
     }
+    return read_dropped(gateway, before, record);
+}
+
+/// What a stored table will drop of the values once it is the active one.
+std::vector<set_points::Dropped> foresee(GatewayClient& gateway, const set_points::Record& record) {
+    const std::optional<ValuesBefore> before = read_before(gateway, record);
+    return before ? foreseen_drops(*before, record) : std::vector<set_points::Dropped>{};
+}
+
+std::string dropped_text(const std::vector<set_points::Dropped>& dropped, bool only_store) {
+    return (only_store && !dropped.empty() ? "\nonce it is the active one:" : "") + lines_of(dropped);
 }
 
 /// The bytes behind the end term are sent only to a gateway that supports them.
@@ -104,25 +119,19 @@ void upload_file(Session& session, const UploadOptions& options) {
         upload(gateway, content, line.callback());
         seconds = line.seconds();
     }
-    std::string dropped;
-    if (!options.only_store) {
-        make_active(session, options);
-        if (digest) confirm(gateway, *digest);
-        if (keeps && !record.values.empty()) dropped = read_dropped(gateway, record);
-    }
+    const std::vector<set_points::Dropped> dropped =
+        options.only_store ? foresee(gateway, record) : make_active(session, options, record);
+    if (digest && !options.only_store) confirm(gateway, *digest);
     if (options.run) gateway.command(gw::Command::run);
     const std::uint32_t crc = base::crc32(table);
     const std::size_t terms = table.size() / 8 - 1;
     session.tell(
-        fmt::format(
-            "{} of {} {} in {:.1f} s, CRC {:08X}h{}{}{}{}", options.file, terms_text(table.size()),
-            options.only_store ? "stored" : "stored and active", seconds, crc,
-            digest ? fmt::format(", certificate {}", options.proof) : "", options.run ? ", started" : "",
-            keeps ? "" : "; its firmware keeps no set-points, the defaults stand in the table",
-            dropped.empty() ? ""
-                            : "\nwith their defaults, because what was kept has another name, unit or "
-                              "range: " +
-                                  dropped),
+        fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}{}{}{}", options.file, terms_text(table.size()),
+                    options.only_store ? "stored" : "stored and active", seconds, crc,
+                    digest ? fmt::format(", certificate {}", options.proof) : "",
+                    options.run ? ", started" : "",
+                    keeps ? "" : "; its firmware keeps no set-points, the defaults stand in the table",
+                    dropped_text(dropped, options.only_store)),
         {{"file", options.file},
          {"terms", terms},
          {"bytes", table.size()},
@@ -130,7 +139,7 @@ void upload_file(Session& session, const UploadOptions& options) {
          {"proof", digest ? digest::hex(*digest) : ""},
          {"active", !options.only_store},
          {"started", options.run},
-         {"dropped", dropped},
+         {"dropped", json_of(dropped)},
          {"seconds", seconds}});
 }
 

@@ -37,10 +37,16 @@ Json dot_of(Workspace& workspace, const Document& document) {
     const View view = workspace.view_of(document);
     const Compilation& compiled = sound(view);
     const std::string& program = compiled.symbols.program;
-    const GraphModel model = graph_model_of(compiled.table, &compiled.symbols, program);
-    return {{"dot", graph_of(compiled.table, &compiled.symbols, program)},
+    const GraphSource source{&compiled.written, view.program->sources().text()};
+    const GraphModel model = graph_model_of(compiled.table, &compiled.symbols, program, source);
+    Json steps = Json::array();
+    for (Json& step : step_lines(workspace, view, compiled)) {
+        const auto number = step["number"].get<std::uint8_t>();
+        if (step_as_written(compiled.symbols, number) == number) steps.push_back(std::move(step));
+    }
+    return {{"dot", graph_of(compiled.table, &compiled.symbols, program, source)},
             {"svg", svg_of(picture_of(model), program)},
-            {"steps", step_lines(workspace, view, compiled)}};
+            {"steps", std::move(steps)}};
 }
 
 Json description_of(Workspace& workspace, const Document& document) {

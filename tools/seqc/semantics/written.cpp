@@ -45,7 +45,8 @@ Written::Step step_of(const StepPlan& plan) {
                        .is_helper = plan.is_helper,
                        .branches = {},
                        .entry = plan.entry,
-                       .outputs = {}};
+                       .outputs = {},
+                       .blinking = plan.memory.blinking};
     for (const Rule& rule : plan.rules) add_branches(plan, rule, step.branches);
     for (const ConditionalOutput& output : plan.conditional) {
         if (output.condition.length != 0)
@@ -54,12 +55,15 @@ Written::Step step_of(const StepPlan& plan) {
     return step;
 }
 
-std::vector<Written::Argument> arguments_of(const ast::Program& program, std::string_view step) {
-    const auto found = std::find_if(program.steps.begin(), program.steps.end(), [&](const ast::Step& s) {
-        return s.origin && same_name(s.name.text, step);
-    });
+const ast::Step* find_step(const ast::Program& program, std::string_view name) {
+    const auto found = std::find_if(program.steps.begin(), program.steps.end(),
+                                    [&](const ast::Step& s) { return same_name(s.name.text, name); });
+    return found == program.steps.end() ? nullptr : &*found;
+}
+
+std::vector<Written::Argument> arguments_of(const ast::Step* found) {
     std::vector<Written::Argument> arguments;
-    if (found == program.steps.end()) return arguments;
+    if (found == nullptr || !found->origin) return arguments;
     for (const auto& [parameter, text] : found->origin->arguments)
         arguments.push_back({std::string(parameter), std::string(text)});
     return arguments;
@@ -81,7 +85,10 @@ Written written_of(const ast::Program& program, const Plan& plan, const std::vec
                    std::back_inserter(written.everywhere), everywhere_of);
     for (const StepPlan& step : plan.steps) {
         written.steps.push_back(step_of(step));
-        written.steps.back().arguments = arguments_of(program, step.name);
+        const ast::Step* found = find_step(program, step.name);
+        written.steps.back().arguments = arguments_of(found);
+        if (found != nullptr && !found->blinking.empty())
+            written.steps.back().blink_time = found->blinking.front().time.span;
         sort_as_judged(written.steps.back().branches, written.everywhere);
         if (step.number != 0) continue;
         std::vector<Span>& entry = written.steps.back().entry;

@@ -152,6 +152,8 @@ class Drawing {
         if (!box.reachable) content += R"(<TR><TD COLSPAN="2">never reached</TD></TR>)";
         if (!box.made_as.empty())
             content += fmt::format(R"(<TR><TD COLSPAN="2">{}</TD></TR>)", markup(box.made_as));
+        if (box.steps.size() > 1)
+            content += fmt::format(R"(<TR><TD COLSPAN="2">{}</TD></TR>)", numbers_text(box.steps));
         std::string rest;
         for (const std::string& output : box.outputs) rest += rows(output, kBoxWidth);
         for (const std::string& line : box.entry) rest += action_rows(line, kBoxWidth);

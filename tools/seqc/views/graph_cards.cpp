@@ -127,6 +127,7 @@ Card step_card(const GraphModel& model, const GraphModel::Box& box, std::size_t 
     writer.head(box);
     if (!box.reachable) writer.line(TextKind::made_as, "never reached", TextAnchor::middle);
     if (!box.made_as.empty()) writer.line(TextKind::made_as, box.made_as, TextAnchor::middle);
+    if (box.steps.size() > 1) writer.line(TextKind::made_as, numbers_text(box.steps), TextAnchor::middle);
     if (!box.outputs.empty() || !box.entry.empty()) writer.rule();
     for (const std::string& output : box.outputs) writer.lines(TextKind::output, output, letters);
     for (const std::string& entry : box.entry) writer.lines(TextKind::entry, entry, letters);

@@ -59,6 +59,7 @@ Json node_json(const GraphModel& model, const Picture::Box& box) {
     } else {
         const auto of = std::find_if(model.boxes.begin(), model.boxes.end(),
                                      [&](const GraphModel::Box& b) { return b.step == box.step; });
+        json["steps"] = of->steps;
         json["name"] = of->name;
         if (!of->made_as.empty()) json["made_as"] = of->made_as;
         json["reachable"] = box.reachable;

@@ -20,7 +20,7 @@ constexpr std::size_t kOfOnCondition = 2;  // the same for an ON condition
 constexpr std::size_t kFewSteps = 3;
 constexpr std::size_t kInputs = 6;
 
-using Steps = std::vector<std::uint8_t>;
+using Steps = GraphModel::Steps;
 
 class Builder {
   public:
@@ -41,10 +41,11 @@ class Builder {
     using Key = std::tuple<std::string, std::string, std::uint8_t>;
     using Bundles = std::map<Key, Steps>;
 
+    /// That has a box of its own.
     template <class Use>
     void for_each_step(Use use) const {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
-            if (machine_.used.test(step)) use(step);
+            if (machine_.used.test(step) && !source_.drawn_with(step).empty()) use(step);
         }
     }
 
@@ -171,15 +172,19 @@ class Builder {
     GraphModel::Box box(std::uint8_t step) const {
         const bool named =
             symbols_ != nullptr && step < symbols_->steps.size() && !symbols_->steps[step].empty();
-        GraphModel::Box box{.step = step,
-                            .name = step_name(step, symbols_),
-                            .shows_number = named,
-                            .reachable = machine_.reachable.test(step),
-                            .made_as = source_.made_as(step),
-                            .is_of_compiler = false,
-                            .outputs = source_.outputs(step),
-                            .entry = source_.entry(step),
-                            .ways = {}};
+        const Steps steps = source_.drawn_with(step);
+        GraphModel::Box box{
+            .step = step,
+            .steps = steps,
+            .name = step_name(step, symbols_),
+            .shows_number = named,
+            .reachable = std::any_of(steps.begin(), steps.end(),
+                                     [this](std::uint8_t s) { return machine_.reachable.test(s); }),
+            .made_as = source_.made_as(step),
+            .is_of_compiler = false,
+            .outputs = source_.outputs(step),
+            .entry = source_.entry(step),
+            .ways = {}};
         if (step != 0 && symbols_ != nullptr && (symbols_->set_points.takes >> step & 1U) != 0)
             box.outputs.emplace_back("TAKES SET_POINTS");
         box.is_of_compiler = !box.made_as.empty() && !box.made_as.starts_with("of SEQUENCE");
@@ -207,14 +212,7 @@ class Builder {
             for (const std::uint8_t step : steps) append(text, step_name(step, symbols_), ", ");
             return text;
         }
-        for (std::size_t i = 0; i < steps.size(); ++i) {
-            const std::size_t first = i;
-            while (i + 1 < steps.size() && steps[i + 1] == steps[i] + 1) ++i;
-            append(text,
-                   i == first ? fmt::format("{}", steps[i]) : fmt::format("{} to {}", steps[first], steps[i]),
-                   ", ");
-        }
-        return steps.size() == 1 ? "step " + text : "steps " + text;
+        return numbers_text(steps);
     }
 
     const Machine& machine_;
@@ -235,6 +233,18 @@ void add_terminals(std::string_view kind, const Names& names, GraphModel& model)
 }
 
 }  // namespace
+
+std::string numbers_text(const GraphModel::Steps& steps) {
+    std::string text;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const std::size_t first = i;
+        while (i + 1 < steps.size() && steps[i + 1] == steps[i] + 1) ++i;
+        append(text,
+               i == first ? fmt::format("{}", steps[i]) : fmt::format("{} to {}", steps[first], steps[i]),
+               ", ");
+    }
+    return (steps.size() == 1 ? "step " : "steps ") + text;
+}
 
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
                           const std::string& title, const GraphSource& source) {

@@ -14,6 +14,7 @@ namespace nplc::seqc {
 
 /// The contents of a table's drawing, as plain text.
 struct GraphModel {
+    using Steps = std::vector<std::uint8_t>;
     /// The action of a step under a condition.
     struct Way {
         std::string condition = {};
@@ -24,12 +25,13 @@ struct GraphModel {
     };
     struct Box {
         std::uint8_t step = 0;
+        Steps steps = {};  ///< of the table: itself, and its copies, which the program does not have
         std::string name = {};
         bool shows_number = false;
         bool reachable = false;
         std::string made_as = {};               ///< "helper step", "copy of Fault", "of SEQUENCE Stamp"
         bool is_of_compiler = false;            ///< a helper step or copy
-        std::vector<std::string> outputs = {};  ///< "OUT Grip", "OUT Lamp WHEN IN3"
+        std::vector<std::string> outputs = {};  ///< "OUT Grip", "OUT Lamp WHEN IN3", "OUT Lamp BLINKING T#1s"
         std::vector<std::string> entry = {};    ///< "ENTRY STOP"; in step 0 the writes of POWER_UP
         std::vector<Way> ways = {};             ///< the first one that is true applies
     };
@@ -56,6 +58,9 @@ struct GraphSource {
     const Written* written = nullptr;  ///< null: a table without a program
     std::string_view text;
 };
+
+/// "steps 3, 5 to 9"
+std::string numbers_text(const GraphModel::Steps& steps);
 
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
                           const std::string& title, const GraphSource& source = {});

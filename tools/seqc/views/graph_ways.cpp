@@ -19,6 +19,21 @@ std::string named_texts(const table::Outcome& outcome, const Symbols* symbols) {
     return text;
 }
 
+/// Branches of several copies of a step, or one that the compiler split, with the same text are one.
+void merge_into(std::vector<GraphWays::Way>& ways, GraphWays::Way way) {
+    const auto same = std::find_if(ways.begin(), ways.end(), [&](const GraphWays::Way& other) {
+        return other.shown.condition == way.shown.condition && other.shown.actions == way.shown.actions &&
+               other.shown.to == way.shown.to;
+    });
+    if (same == ways.end()) {
+        ways.push_back(std::move(way));
+        return;
+    }
+    same->when |= way.when;
+    same->shown.on_error = same->shown.on_error && way.shown.on_error;
+    if (!same->shown.by) same->shown.by = way.shown.by;
+}
+
 }  // namespace
 
 GraphWays::GraphWays(const Machine& machine, const Symbols* symbols, const GraphSource& source)
@@ -29,6 +44,20 @@ GraphWays::GraphWays(const Machine& machine, const Symbols* symbols, const Graph
       text_(source.text),
       power_up_(power_up_orders(machine)) {
     for (std::uint8_t step = 0; step < kStepNumbers; ++step) entries_[step] = entry_of(machine, step);
+}
+
+std::uint8_t GraphWays::box_of(std::uint8_t step) const {
+    return written_ == nullptr || symbols_ == nullptr ? step : step_as_written(*symbols_, step);
+}
+
+GraphModel::Steps GraphWays::drawn_with(std::uint8_t step) const {
+    GraphModel::Steps steps;
+    if (box_of(step) != step) return steps;
+    steps.push_back(step);
+    for (std::uint8_t other = 0; other < kStepNumbers; ++other) {
+        if (other != step && machine_.used.test(other) && box_of(other) == step) steps.push_back(other);
+    }
+    return steps;
 }
 
 /// A compiler-generated copy has the text of its original step.
@@ -65,7 +94,7 @@ GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branc
     const std::string condition = text.condition(branch);
     GraphModel::Way way{.condition = condition,
                         .actions = text.statements(branch.statements),
-                        .to = branch.next.value_or(step.number),
+                        .to = box_of(branch.next.value_or(step.number)),
                         .by = branch.by_helper};
     if (branch.statements.empty() && branch.when == truth_of_bit(kErrorBit)) {
         way.condition = "ERROR";
@@ -80,7 +109,7 @@ bool GraphWays::leads_to_several(const Written::Step& step, const std::string& c
     std::optional<std::uint8_t> first;
     for (const Written::Branch& branch : step.branches) {
         if (!is_true(branch, step.number) || text_of(step).condition(branch) != condition) continue;
-        const std::uint8_t to = branch.next.value_or(step.number);
+        const std::uint8_t to = box_of(branch.next.value_or(step.number));
         if (first.value_or(to) != to) return true;
         first = to;
     }
@@ -88,30 +117,54 @@ bool GraphWays::leads_to_several(const Written::Step& step, const std::string& c
 }
 
 std::vector<GraphWays::Way> GraphWays::of(std::uint8_t step) const {
+    std::vector<Way> ways;
+    const GraphModel::Steps steps = drawn_with(step);
+    for (const std::uint8_t one : steps) {
+        for (Way& way : ways_of(one)) merge_into(ways, std::move(way));
+    }
+    if (steps.size() == 1) {
+        name_the_rest(ways);
+    } else {
+        std::stable_sort(ways.begin(), ways.end(),
+                         [](const Way& a, const Way& b) { return a.place < b.place; });
+    }
+    return ways;
+}
+
+/// ON conditions come before a step's own branches.
+std::size_t GraphWays::place_of(const Written::Branch& branch) const {
+    const bool is_own =
+        std::none_of(written_->everywhere.begin(), written_->everywhere.end(),
+                     [&](const Written::Everywhere& on) { return on.condition == branch.condition; });
+    return branch.condition.offset + (is_own ? std::size_t{source_.size()} : 0);
+}
+
+std::vector<GraphWays::Way> GraphWays::ways_of(std::uint8_t step) const {
     const Truth error = truth_of_bit(kErrorBit);
     std::vector<Way> ways;
     Truth told;
-    const auto add = [&](const Truth& when, GraphModel::Way shown, bool is_written) {
+    const auto add = [&](const Truth& when, GraphModel::Way shown, bool is_written, std::size_t place) {
         shown.on_error = (when & ~error).none();
-        ways.push_back({std::move(shown), when, is_written});
+        ways.push_back({std::move(shown), when, is_written, place});
         told |= when;
     };
     if (const Written::Step* written = written_step(step)) {
         for (const Written::Branch& branch : written->branches) {
             if (!is_true(branch, step)) continue;
-            add(branch.when, shown(*written, branch, told), true);
+            add(branch.when, shown(*written, branch, told), true, place_of(branch));
         }
     }
     for (const Reaction& reaction : reactions_of(machine_, step)) {
         const Truth rest = reaction.when & ~told;
-        if (rest.none()) continue;
+        const std::uint8_t next = reaction.outcome.next;
+        const bool stays_in_box = next != step && box_of(next) == box_of(step);
+        if (rest.none() || stays_in_box) continue;
         add(rest,
             {.condition = condition_text(rest, told, symbols_),
              .actions = actions(step, reaction),
-             .to = reaction.outcome.next},
-            false);
+             .to = box_of(next)},
+            false, SIZE_MAX);
     }
-    name_the_rest(ways);
     return ways;
 }
 
@@ -182,21 +235,46 @@ std::string GraphWays::condition_of(const OutputRule& rule, std::uint8_t step) c
     return condition_text(rule.when, rule.open, symbols_);
 }
 
+/// "OUT Lamp, Horn BLINKING T#500ms"
+std::string GraphWays::blinking_text(std::uint8_t step) const {
+    const Written::Step* written = written_step(step);
+    if (written == nullptr || written->blinking == 0) return {};
+    return fmt::format("OUT {} BLINKING {}", outputs_list(written->blinking, symbols_),
+                       text_of(*written).of(written->blink_time));
+}
+
 std::vector<std::string> GraphWays::outputs(std::uint8_t step) const {
     using Kind = OutputRule::Kind;
-    std::string always_on;
+    const std::string blinking = blinking_text(step);
+    const std::uint8_t lamps = blinking.empty() ? std::uint8_t{0} : written_step(step)->blinking;
+    GraphModel::Steps steps = drawn_with(step);
+    if (machine_.reachable.test(step))
+        std::erase_if(steps, [this](std::uint8_t one) { return !machine_.reachable.test(one); });
+    std::array<std::size_t, 4> on{};
     std::vector<std::string> texts;
-    for (const OutputRule& rule : output_rules(machine_, step)) {
-        const std::string name = output_name(rule.bit, symbols_);
-        if (rule.kind == Kind::on) {
-            append(always_on, name, ", ");
-            continue;
+    for (const std::uint8_t one : steps) {
+        for (const OutputRule& rule : output_rules(machine_, one)) {
+            if ((lamps >> rule.bit & 1) != 0) continue;
+            if (rule.kind == Kind::on) {
+                ++on[rule.bit];
+                continue;
+            }
+            const std::string_view verb = rule.kind == Kind::sets     ? "set"
+                                          : rule.kind == Kind::resets ? "reset"
+                                                                      : "OUT";
+            std::string text =
+                fmt::format("{} {} WHEN {}", verb, output_name(rule.bit, symbols_), condition_of(rule, one));
+            if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(std::move(text));
         }
-        const std::string_view verb = rule.kind == Kind::sets     ? "set"
-                                      : rule.kind == Kind::resets ? "reset"
-                                                                  : "OUT";
-        texts.push_back(fmt::format("{} {} WHEN {}", verb, name, condition_of(rule, step)));
     }
+    std::string always_on;
+    std::string as_before;  // on in some of the copies: SET has been before, or not
+    for (std::uint8_t bit = 0; bit < on.size(); ++bit) {
+        if (on[bit] != 0)
+            append(on[bit] == steps.size() ? always_on : as_before, output_name(bit, symbols_), ", ");
+    }
+    if (!as_before.empty()) texts.insert(texts.begin(), as_before + " as before");
+    if (!blinking.empty()) texts.insert(texts.begin(), blinking);
     if (!always_on.empty()) texts.insert(texts.begin(), "OUT " + always_on);
     return texts;
 }
@@ -204,8 +282,8 @@ std::vector<std::string> GraphWays::outputs(std::uint8_t step) const {
 std::string GraphWays::made_as(std::uint8_t step) const {
     if (symbols_ == nullptr || step >= symbols_->made_for.size() || symbols_->made_for[step].empty())
         return {};
-    const auto of = symbols_->copy_of[step];
-    if (of) return "copy of " + symbols_->steps[*of];
+    if (const std::uint8_t of = step_as_written(*symbols_, step); of != step)
+        return "copy of " + symbols_->steps[of];
     const std::string& why = symbols_->made_for[step];
     return why.substr(0, why.find_first_of(":,"));
 }

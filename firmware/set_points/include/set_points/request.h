@@ -32,10 +32,18 @@ std::vector<std::uint8_t> encode_request(const Record& record, registers::gatewa
 /// Sets the number by which the gateway recognizes a repeated request and reports its outcome. Without it: 0.
 void give_number(std::span<std::uint8_t> request, std::uint32_t own_number);
 
+/// A saved value that no set-point of the record takes.
+struct Misfit {
+    std::uint32_t name_hash = 0;  ///< hash_of() its set-point's name
+    std::int32_t value = 0;
+    std::uint8_t unit_code = 0;
+};
+
 struct Recipe {
     std::uint8_t number = 0;
     std::string name;
     std::vector<NewValue> values;  ///< those that match a set-point of the record in name, unit and range
+    std::vector<Misfit> misfits{};
 };
 
 /// Decodes a recipe's view; an empty name: there is none.

@@ -27,9 +27,10 @@ struct Value {
         v_ist,
         shaft,
         torque,
+        set_point,  ///< in force, in its steps
     };
     Kind kind = Kind::input;
-    unsigned index = 0;  ///< of an input or output
+    unsigned index = 0;  ///< of an input, an output or a set-point
 
     bool is_bit() const;
     double of(const Snapshot& snapshot) const;

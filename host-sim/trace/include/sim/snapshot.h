@@ -42,6 +42,7 @@ struct Snapshot {
     bool link_up = false;
     bool running = false;
     std::vector<SentOrder> orders;  ///< given since the previous snapshot
+    std::array<std::int32_t, registers::set_points::kMost> set_points{};  ///< in force, in their steps
 };
 
 inline constexpr unsigned kInputs = 6;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nanoctl/gateway_client.h"
 #include "set_points/changes.h"
+#include "set_points/dropped.h"
 #include "set_points/request.h"
 
 /// The set-points and recipes of a gateway.
@@ -35,9 +37,25 @@ struct KnownChanges {
 };
 KnownChanges read_changes(GatewayClient& gateway);
 
-/// For the table that has just become active: the set-points whose stored values did not fit, "Length,
-/// Pieces".
-std::string read_dropped(GatewayClient& gateway, const set_points::Record& record);
+/// The values and recipes of the active table before another one takes its place.
+struct ValuesBefore {
+    KeptSetPoints kept;
+    std::vector<set_points::Recipe> recipes;
+};
+/// None if its firmware does not support them, the active table has none, or the very record `next`, or if
+/// they cannot be read: that is no reason to upload nothing.
+std::optional<ValuesBefore> read_before(GatewayClient& gateway, const set_points::Record& next);
+/// What a table with the record `next` will not take of it, as far as the record tells.
+std::vector<set_points::Dropped> foreseen_drops(const ValuesBefore& before, const set_points::Record& next);
+/// What the table that has just become active, with the record `now`, did not take.
+std::vector<set_points::Dropped> read_dropped(GatewayClient& gateway,
+                                              const std::optional<ValuesBefore>& before,
+                                              const set_points::Record& now);
+/// Of a recipe that was just loaded, what was not taken of it; `kept` was read afterwards.
+std::vector<set_points::Dropped> dropped_by_loading(const set_points::Recipe& recipe,
+                                                    const KeptSetPoints& kept);
+/// Of the active table; empty without set-points.
+set_points::Record read_active_record(GatewayClient& gateway);
 
 /// Carries a request out completely or not at all, once, and waits for its end even if the gateway stores
 /// slowly; Refused names the value and its limits. `request` without a number of its own.

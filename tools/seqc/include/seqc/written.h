@@ -38,6 +38,8 @@ struct Written {
         std::vector<Span> entry;       ///< in step 0 the values of VAR_MOTOR: `Home AT P1 := 0 mm`
         std::vector<Output> outputs;   ///< those with a condition
         std::vector<Argument> arguments = {};
+        std::uint8_t blinking = 0;  ///< outputs, bits 3..0
+        Span blink_time = {};       ///< how long they are on, and off
     };
     /// ON condition IN .. EXCEPT .. NEXT := Step;
     struct Everywhere {

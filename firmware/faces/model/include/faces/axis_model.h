@@ -54,6 +54,8 @@ class AxisModel {
     /// Keeps the motor's values up to date for kMotorInterest, also between images: for clients that ask at
     /// intervals of seconds. A request for causes does the same.
     void want_motor(base::Instant now);
+    /// Reads the motor's torque as often as its position for kInterest: for clients that show it over time.
+    void want_trend(base::Instant now);
 
     std::shared_ptr<const AxisTable> table() const { return table_.get(); }
     /// Settable values, their ranges, and the recipes. An image right after an upload may belong to another
@@ -81,6 +83,7 @@ class AxisModel {
     Shelf<Survey>& survey_shelf() { return survey_; }
     bool wants_survey(base::Instant now) const;
     bool wants_motor(base::Instant now) const;
+    bool wants_trend(base::Instant now) const;
     bool is_wanted(base::Instant now) const;
     void strike_bells();
     /// To be called before the desk is checked.
@@ -97,6 +100,7 @@ class AxisModel {
     WhyKeeper why_;
     std::atomic<std::int64_t> why_asked_{INT64_MIN / 2};
     std::atomic<std::int64_t> motor_asked_{INT64_MIN / 2};
+    std::atomic<std::int64_t> trend_asked_{INT64_MIN / 2};
     std::atomic<std::int64_t> wanted_{INT64_MIN / 2};
     std::array<Bell*, kMostBells> bells_{};
     Bell* loop_ = nullptr;

@@ -27,9 +27,10 @@ class MotorReader {
     /// Latest time of the next poll() for the access.
     base::Instant next(const gateway::Controller& controller, base::Instant now) const;
 
-    /// Reads the image's values when due. Not during a face's access.
-    void look_around(gateway::Controller& controller, AxisImage& image, base::Instant now,
-                     base::Instant wall);
+    /// Reads the image's values when due, with `has_trend` the torque as often as position and velocity. Not
+    /// during a face's access.
+    void look_around(gateway::Controller& controller, AxisImage& image, base::Instant now, base::Instant wall,
+                     bool has_trend);
     /// Reads the values for the analysis of causes, between the image's values.
     void begin_survey(registers::Model model);
     bool surveys() const { return !to_survey_.empty(); }
@@ -51,7 +52,7 @@ class MotorReader {
 
     State take(gateway::Controller& controller, base::Instant now);
     MotorItem next_other(registers::Model model);
-    void choose_item(const AxisImage& image);
+    void choose_item(const AxisImage& image, bool has_trend);
     void choose_surveyed();
     void note_surveyed(base::Instant wall);
     void note_item(AxisImage& image, base::Instant wall);

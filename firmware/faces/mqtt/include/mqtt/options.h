@@ -22,7 +22,7 @@ struct Options : broker::Options {
     std::vector<registers::gateway::Command> commands{};  ///< accepted commands
     std::vector<std::string> set_points{};  ///< names of the settable ones (case-insensitive); "*": all
     bool recipes = false;                   ///< may be loaded
-    base::Milliseconds command_age{5'000};  ///< maximum age by its timestamp
+    base::Milliseconds command_age{1'000};  ///< maximum age by its timestamp
     deployment::Settings orders{};          ///< signed orders, and reports besides Sparkplug
     /// A one-line message for the operator; an error or news. From the face's thread.
     std::function<void(bool is_error, const std::string&)> tell{};

@@ -1,11 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
+#include "faces/points.h"
+
+/// Of symbol files, as written by `seqc build`.
 namespace nplc::panel {
 
-/// Whether `text` is a symbol file as written by `seqc build`, for the table with this CRC-32.
+/// Whether `text` is the symbol file of the table with this CRC-32.
 bool is_for_table(std::string_view text, std::uint32_t crc);
+
+/// SCALE of the program; revolutions without one.
+faces::Scaling scale_in(std::string_view text);
+bool is_same(const faces::Scaling& a, const faces::Scaling& b);
+/// `5 mm a revolution`
+std::string in_words(const faces::Scaling& scaling);
 
 }  // namespace nplc::panel

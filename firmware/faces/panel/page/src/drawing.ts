@@ -13,6 +13,7 @@ interface View {
 
 const kPathShown = 6;
 const kLeastWidth = 220;
+const kReadable = 0.5; // px of the screen for one of the drawing
 
 export class StepDrawing {
   selected: number | null = null; // null: the active step
@@ -28,7 +29,7 @@ export class StepDrawing {
   private lastStep = -1;
   private axis: Axis | null = null;
   private showsErrors = false;
-  private isFitted = true; // nobody has moved or zoomed
+  private shows: "readable" | "all" | "chosen" = "readable"; // chosen: somebody has moved or zoomed
   private drag: { x: number; y: number; view: View; moved: boolean } | null = null;
   private pinch = new Map<number, { x: number; y: number }>();
 
@@ -59,7 +60,7 @@ export class StepDrawing {
     for (const line of this.drawing.lines) this.addLine(line.from, line.to, pathOf(line.points), false);
     for (const step of steps) for (const way of step.ways) if (this.isAside(way)) this.addAside(way);
     for (const step of steps) this.addBox(step.number);
-    this.fit();
+    this.begin();
   }
 
   /** ERROR's ways would cross everything: they are shown for the step that is looked at. */
@@ -236,27 +237,41 @@ export class StepDrawing {
     this.root.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${view.height}`);
   }
 
+  /** All steps, however small. */
   fit(): void {
     if (!this.drawing) return;
     const width = Math.max(this.drawing.width, this.drawing.height / this.aspect(), kLeastWidth * 2);
     const height = width * this.aspect();
     this.target = null;
-    this.isFitted = true;
+    this.shows = "all";
     this.apply({ x: (this.drawing.width - width) / 2, y: Math.min(0, (this.drawing.height - height) / 2), width, height });
-    // So small that nobody could read it: begin with a part.
-    const scale = this.root.clientWidth / width;
-    if (scale < 0.5) this.magnify(scale / 0.75);
+  }
+
+  /** All steps, or if nobody could read them then a part around the active one. */
+  private begin(): void {
+    this.fit();
+    this.shows = "readable";
+    const scale = this.root.clientWidth / this.view.width;
+    if (scale < kReadable) this.magnify(scale / 0.75);
     if (this.lastStep >= 0) this.reveal(this.lastStep);
   }
 
+  /** Shows it and selects it, as large as can be read. */
+  goTo(step: number): void {
+    const scale = this.root.clientWidth / this.view.width;
+    if (scale < kReadable) this.zoom(scale / 0.75);
+    this.select(step);
+  }
+
   private resized(): void {
-    if (this.isFitted) return this.fit();
+    if (this.shows === "all") return this.fit();
+    if (this.shows === "readable") return this.begin();
     this.apply({ ...this.view, height: this.view.width * this.aspect() });
     if (this.lastStep >= 0 && this.follows) this.reveal(this.lastStep);
   }
 
   zoom(factor: number, at?: { x: number; y: number }): void {
-    this.isFitted = false;
+    this.shows = "chosen";
     this.magnify(factor, at);
   }
 
@@ -332,7 +347,7 @@ export class StepDrawing {
     const dy = event.clientY - this.drag.y;
     if (!this.drag.moved && Math.hypot(dx, dy) < 5) return;
     this.drag.moved = true;
-    this.isFitted = false;
+    this.shows = "chosen";
     this.target = null;
     const scale = this.view.width / this.root.clientWidth;
     this.apply({ ...this.view, x: this.drag.view.x - dx * scale, y: this.drag.view.y - dy * scale });

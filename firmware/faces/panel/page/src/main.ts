@@ -79,13 +79,8 @@ function hello(message: Message): void {
   setClass(document.body, "simulated", simulated);
   const infos = message.axes as AxisInfo[];
   const wanted = current?.info.name ?? new URLSearchParams(location.search).get("axis");
-  const kept = new Map(axes);
-  axes.clear();
-  for (const info of infos) {
-    const axis = new Axis(info);
-    axis.path = kept.get(info.name)?.path ?? [];
-    axes.set(info.name, axis);
-  }
+  axes.clear(); // what was between is not known: no path leads across it
+  for (const info of infos) axes.set(info.name, new Axis(info));
   const choice = byId<HTMLSelectElement>("axis");
   choice.replaceChildren(...infos.map((info) => h("option", { value: info.name }, info.name)));
   byId("axis-choice").hidden = infos.length < 2;
@@ -137,6 +132,7 @@ function paintLink(age: number): void {
   if (wire.state === "replaced") bar("Another client took this page's place: there were too many. Load the page anew to watch again.");
   else if (wire.state === "lost") bar("The connection is lost. What you see is old; the page connects again by itself.");
   else if (wire.state === "connecting") bar("Connecting…");
+  else if (simulated && simulator.isPaused && (age > kOld || current?.stopUnconfirmed)) bar("The simulated time is paused: nothing goes on, not even a stop, until “Go on” beside the time.");
   else if (current && current.imageAt > 0 && age > kOld) bar(`No news of the axis for ${duration(age)}: what you see is old.`);
   else if (current?.stopUnconfirmed) bar("The motor was told to stop and has not confirmed it: it may be moving. Look at its supply and its line.", true);
   else bar("");
@@ -184,6 +180,7 @@ function paintProgram(axis: Axis, state: string): void {
     if (active) parts.push(`active since ${clock(active.ms)} of uptime${dateOf(axis, active.ms)}`);
     else if (axis.events[0]?.n === 1) parts.push(`active since the start${dateOf(axis, 0)}`);
     if (axis.status(13)) parts.push("another table is stored");
+    if (axis.otherScale()) parts.push(`Modbus, MQTT and metrics show positions at ${axis.otherScale()}`);
   }
   setText(byId("loaded"), parts.filter(Boolean).join(" · "));
 }
@@ -204,7 +201,7 @@ function paintEvents(axis: Axis): void {
 }
 
 function paintWhy(axis: Axis): void {
-  const findings = whyNot(axis, waits);
+  const findings = whyNot(axis, waits, operation.operates);
   const text = JSON.stringify(findings);
   if (text === shownWhy) return;
   shownWhy = text;
@@ -236,7 +233,8 @@ byId<HTMLInputElement>("search").addEventListener("input", (e) => {
   setText(byId("search-count"), text.trim() ? `${count} found` : "");
 });
 byId<HTMLInputElement>("search").addEventListener("keydown", (e) => {
-  if (e.key === "Enter" && drawing.firstFound() !== null) drawing.select(drawing.firstFound());
+  const found = drawing.firstFound();
+  if (e.key === "Enter" && found !== null) drawing.goTo(found);
 });
 document.addEventListener("visibilitychange", () => {
   if (document.hidden) return;

@@ -6,7 +6,10 @@ import type { Answer, Wire } from "./wire";
 const kTokenKey = "nanoplc-token";
 const kStopPatience = 1500; // ms: the program answers a stop within 1 s, whatever comes of it
 // Of an answer: firmware/gateway/REGISTERS.md.
+const kNoTable = 6;
+const kNotRunning = 17;
 const kSeatTaken = 22;
+const kMostNotices = 4; // that pass by themselves
 
 export class Operation {
   operates = false;
@@ -19,6 +22,7 @@ export class Operation {
   private readonly problem = byId("token-problem");
   private readonly toggle = byId<HTMLButtonElement>("mode");
   private readonly notices = byId("notices");
+  private readonly doubts = new Map<string, { line: HTMLElement; isHold: boolean; since: number }>(); // stops not known to be done, by axis
 
   constructor(private readonly wire: Wire, private readonly changed: () => void) {
     const fragment = new URLSearchParams(location.hash.slice(1)).get("token");
@@ -133,13 +137,16 @@ export class Operation {
     if (this.axis.forcedInputs || this.axis.forcedOutputs) void this.wire.ask({ do: "write", axis, register: "FORCE_LEFT", value: 1 });
   }
 
-  notice(text: string, alarm = false, offer?: { label: string; act: () => void }): void {
+  /** A `lasting` one goes with its reason, or when it is dismissed. */
+  notice(text: string, alarm = false, offer?: { label: string; act: () => void }, lasting = false): HTMLElement {
     const button = offer ? [h("button", { type: "button", onclick: () => { line.remove(); offer.act(); } }, offer.label)] : [];
-    const line: HTMLElement = h("div", { class: `notice${alarm ? " alarm" : ""}`, role: alarm ? "alert" : "status" }, text, ...button,
+    const line: HTMLElement = h("div", { class: `notice${alarm ? " alarm" : ""}${lasting ? " lasting" : ""}`, role: alarm ? "alert" : "status" }, text, ...button,
       h("button", { type: "button", class: "plain", "aria-label": "dismiss", onclick: () => line.remove() }, "×"));
     this.notices.append(line);
-    while (this.notices.childElementCount > 4) this.notices.firstElementChild!.remove();
-    setTimeout(() => line.remove(), alarm || offer ? 20_000 : 6_000);
+    const passing = this.notices.querySelectorAll(".notice:not(.lasting)");
+    for (const old of [...passing].slice(0, Math.max(0, passing.length - kMostNotices))) old.remove();
+    if (!lasting) setTimeout(() => line.remove(), alarm || offer ? 20_000 : 6_000);
+    return line;
   }
 
   /** Of the axis that is shown; the caller says what was refused. */
@@ -160,12 +167,32 @@ export class Operation {
   }
 
   private async stopAxis(name: string, axis: string): Promise<void> {
-    const of = this.axis ? "" : `${axis}: `;
-    const late = setTimeout(() => this.notice(`${of}No answer to ${name} yet: the machine may still be running.`, true), kStopPatience);
-    const answer = await this.ask({ do: "command", name, axis }, name);
+    const of = this.axis && this.stoppable.length < 2 ? "" : `${axis}: `;
+    const late = setTimeout(() => this.doubt(axis, name, `${of}No answer to ${name} yet: the machine may still be running.`), kStopPatience);
+    const answer = await this.wireAsk({ do: "command", name, axis });
     clearTimeout(late);
-    if (answer.result === "done") this.notice(of + (name === "hold" ? "The sequence is being held." : "Stopped; the outputs have their safe values."));
-    else if (answer.code !== 17 && answer.code !== 6) this.notice(`${of}Not confirmed: the machine may still be running.`, true);
+    if (answer.result === "done") {
+      this.endDoubt(axis);
+      this.notice(of + (name === "hold" ? "The sequence is held." : "Stopped; the outputs have their safe values."));
+    } else if (answer.code === kNotRunning || answer.code === kNoTable) this.notice(`${of}${name}: ${answer.text}`, true);
+    else this.doubt(axis, name, `${of}${name}: ${answer.text}. Not confirmed: the machine may still be running.`);
+  }
+
+  /** Stays until the axis is seen to stand still, or somebody dismisses it. */
+  private doubt(axis: string, name: string, text: string): void {
+    this.endDoubt(axis);
+    this.doubts.set(axis, { line: this.notice(text, true, undefined, true), isHold: name === "hold", since: performance.now() });
+  }
+
+  private endDoubt(axis: string): void {
+    this.doubts.get(axis)?.line.remove();
+    this.doubts.delete(axis);
+  }
+
+  private resolveDoubt(axis: Axis): void {
+    const doubt = this.doubts.get(axis.info.name);
+    if (!doubt || this.wire.state !== "open" || axis.imageAt <= doubt.since || axis.stopUnconfirmed) return;
+    if (axis.isStopped || (doubt.isHold && axis.isHeld)) this.endDoubt(axis.info.name);
   }
 
   async command(name: string): Promise<void> {
@@ -174,15 +201,15 @@ export class Operation {
 
   /** The motor is not told to stop any more: only a person who looks at it can say that this is right. */
   private giveUpStop(): void {
-    if (!this.operates) return this.notice("Giving a stop up needs operating: press Operate… first.");
+    if (!this.operates) return void this.notice("Giving a stop up needs operating: press Operate… first.");
     this.notice("Once given up, the motor is not told to stop any more. Make sure that it stands, or is without power.", true, {
       label: "Give the stop up", act: () => void this.command("give_up_stop") });
   }
 
-  /** ERR_STAT's errors are cleared by writing it; the sequence's own way is command 01h. */
+  /** In the motor; the sequence's own way is command 01h. */
   private async resetError(): Promise<void> {
-    const answer = await this.ask({ do: "motor_write", register: "ERR_STAT", value: 0 }, "reset error");
-    if (answer.result === "done") this.notice("ERR_STAT was cleared in the motor.");
+    const answer = await this.ask({ do: "command", name: "reset_error" }, "reset error");
+    if (answer.result === "done") this.notice("The motor's errors were cleared; one whose cause is still there comes back.");
   }
 
   async setBreak(step: number, on: boolean): Promise<void> {
@@ -204,11 +231,12 @@ export class Operation {
 
   /** Which buttons are of use now. */
   update(axis: Axis): void {
+    this.resolveDoubt(axis);
     const enable = (id: string, on: boolean): void => setAttribute(byId(id), "aria-disabled", String(!on));
     const may = this.operates;
     enable("do-run", may && axis.hasTable && !axis.stopUnconfirmed && (axis.isStopped || axis.isHeld));
-    enable("do-step", may && axis.hasTable && !axis.isRunning);
-    enable("do-scan", may && axis.hasTable && !axis.isRunning);
+    enable("do-step", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
+    enable("do-scan", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
     enable("do-reset-error", may);
     enable("do-give-up", may);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");

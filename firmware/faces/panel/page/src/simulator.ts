@@ -5,6 +5,7 @@ import type { Axis } from "./state";
 import { clock } from "./words";
 
 export class Simulator {
+  get isPaused(): boolean { return this.paused; }
   private paused = false;
   private blocked = false;
   private cut = false;

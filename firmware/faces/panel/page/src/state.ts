@@ -14,6 +14,27 @@ export interface Symbols {
   registers?: { name: string; register: string; number: number }[];
 }
 
+/** Of a file or the wire only what has its form: a name that is none is shown as the number. */
+export function symbolsOf(given: unknown): Symbols {
+  const object = (value: unknown): Record<string, unknown> | null =>
+    (typeof value === "object" && value !== null && !Array.isArray(value) ? (value as Record<string, unknown>) : null);
+  const list = (value: unknown): unknown[] => (Array.isArray(value) ? value : []);
+  const from = object(given);
+  if (!from) return {};
+  const text = (name: string): string | undefined => (typeof from[name] === "string" ? from[name] : undefined);
+  const texts = (name: string): string[] => list(from[name]).map((one) => (typeof one === "string" ? one : ""));
+  const scale = object(from.scale);
+  const isScale = typeof scale?.unit === "string" && Number(scale.revolutions) > 0 && Number(scale.length) > 0;
+  const named = (name: string): Record<string, unknown>[] =>
+    list(from[name]).map(object).filter((one) => typeof one?.number === "number" && typeof one.name === "string") as Record<string, unknown>[];
+  return {
+    ...(from as Symbols), program: text("program"), source: text("source"), motor: text("motor"), inputs: texts("inputs"), outputs: texts("outputs"),
+    scale: isScale ? { unit: scale!.unit as string, revolutions: Number(scale!.revolutions), length: Number(scale!.length) } : undefined,
+    steps: named("steps").map((one) => ({ ...one, outputs: Number(one.outputs) || 0, made_for: typeof one.made_for === "string" ? one.made_for : undefined })) as Symbols["steps"],
+    registers: named("registers").filter((one) => typeof one.register === "string") as Symbols["registers"],
+  };
+}
+
 export interface RegisterInfo {
   name: string;
   signed: boolean;
@@ -55,6 +76,8 @@ export interface AxisInfo {
   motor: string;
   counts_per_rev: number;
   samples_per_second: number;
+  unit?: string; // in which other faces show positions
+  per_revolution?: number;
   error_bits: { bit: number; name: string; text: string }[]; // of ERR_STAT
   modes: Record<string, string>; // of MODE_REG
 }
@@ -136,15 +159,17 @@ export class Axis {
   takeProgram(m: Record<string, unknown>): void {
     const bytes = Uint8Array.from(atob(m.table as string), (c) => c.charCodeAt(0));
     const terms = decodeTable(bytes);
+    if (this.program && this.program.crc !== m.crc) this.path = []; // its steps are others
     this.program = {
       file: (m.file as string) ?? "", crc: m.crc as number, bytes, proof: (m.proof as string) ?? "",
-      since: (m.since as number) ?? -1, symbols: (m.symbols as Symbols | null) ?? {}, hasSymbols: m.symbols !== null,
+      since: (m.since as number) ?? -1, symbols: symbolsOf(m.symbols), hasSymbols: m.symbols !== null,
       registers: (m.registers as Record<string, RegisterInfo>) ?? {}, terms, steps: stepsOf(terms),
     };
   }
 
   takeImage(m: Record<string, unknown>, now: number): void {
     const registers = m.r as Record<string, number> | undefined;
+    if (registers?.UPTIME !== undefined && registers.UPTIME < (this.r.UPTIME ?? 0)) this.path = []; // it began anew
     if (m.full) this.r = {};
     Object.assign(this.r, registers);
     this.imageAt = now - (m.age as number);
@@ -185,6 +210,15 @@ export class Axis {
   programName(): string {
     if (!this.program || !this.hasTable) return "no table";
     return this.program.symbols.program ?? (this.program.file || `table ${hex(this.program.crc)}`);
+  }
+
+  /** What Modbus, MQTT and metrics show positions in, where it is not the program's SCALE: `1 rev a revolution`. */
+  otherScale(): string {
+    const { unit, per_revolution: other } = this.info;
+    if (!this.program?.hasSymbols || unit === undefined || other === undefined) return "";
+    const scale = this.program.symbols.scale ?? { unit: "rev", length: 1, revolutions: 1 };
+    const own = scale.length / scale.revolutions;
+    return unit === scale.unit && Math.abs(own - other) <= 1e-9 * own ? "" : `${Number(other.toPrecision(9))} ${unit} a revolution`;
   }
 
   stateInWords(): string {

@@ -1,6 +1,7 @@
 // Position, velocity and current of the last minutes: pause, zoom, CSV.
 import uPlot from "uplot";
 import { h, saveFile, setClass, setText } from "./dom";
+import { spanOf } from "./span";
 import type { Axis } from "./state";
 import { duration } from "./words";
 
@@ -9,6 +10,12 @@ const kWindows = [10, 60, 300];
 const kOld = 1000; // ms: a value that was read before is shown with its age
 const kPause = 2; // seconds without a sample are a gap in the lines
 const kLinkUp = 3;
+const kNarrow = 560; // px
+// An axis shows at least so much: what a shaft at rest trembles is not drawn as high as the plot.
+const kLeastTurns = 0.05; // revolutions
+const kLeastSpeed = 20; // rpm
+const kLeastCurrent = 20; // %
+const kFullCurrent = 1023; // VF_OUT of the peak (001 §3.2.7)
 
 type Samples = (number | null | undefined)[];
 
@@ -31,7 +38,8 @@ export class Trend {
   private zoomed = false;
   private window = kWindows[1];
   private drawn = 0;
-  private readonly watch = new ResizeObserver(() => this.plot?.setSize(this.size()));
+  private isNarrow = false;
+  private readonly watch = new ResizeObserver(() => this.resized());
   private readonly pauseButton: HTMLButtonElement;
 
   constructor(private readonly root: HTMLElement, tools: HTMLElement, private readonly table: HTMLElement) {
@@ -48,6 +56,11 @@ export class Trend {
   private size(): { width: number; height: number } {
     const legend = this.root.querySelector<HTMLElement>(".u-legend")?.offsetHeight ?? 24;
     return { width: Math.max(200, this.root.clientWidth), height: Math.max(160, this.root.clientHeight - legend) };
+  }
+
+  private resized(): void {
+    if (this.plot && this.isNarrow !== this.root.clientWidth < kNarrow) return this.make();
+    this.plot?.setSize(this.size());
   }
 
   private pause(): void {
@@ -82,17 +95,23 @@ export class Trend {
     const em = parseFloat(style.fontSize);
     const font = `${Math.round(0.73 * em)}px system-ui`;
     const line = (label: string, scale: string, name: string): uPlot.Series => ({ label, scale, stroke: colour(name), width: 1.5, points: { show: false } });
-    const side = (scale: string, label: string, right: boolean): uPlot.Axis => ({
-      scale, label, side: right ? 1 : 3, stroke: colour("--quiet"), grid: { show: !right, stroke: colour("--line"), width: 1 }, ticks: { show: false },
-      size: 3.5 * em, labelSize: 1.1 * em, font, labelFont: font,
+    // In the colour of its line; on a phone without words, which stand below.
+    const isNarrow = (this.isNarrow = this.root.clientWidth < kNarrow);
+    const side = (scale: string, label: string, name: string, right: boolean): uPlot.Axis => ({
+      scale, ...(isNarrow ? {} : { label }), side: right ? 1 : 3, stroke: colour(name), grid: { show: scale === "position", stroke: colour("--line"), width: 1 }, ticks: { show: false },
+      size: (isNarrow ? 2.6 : 3.5) * em, gap: isNarrow ? 2 : 5, labelSize: 1.1 * em, font, labelFont: font,
     });
+    const range = (least: number) => (_: uPlot, low: number | null, high: number | null) => spanOf(low, high, least);
+    const told = (unit: string, digits: number) => (_: uPlot, v: number | null | undefined): string => (v === null || v === undefined ? "" : `${v.toFixed(digits)} ${unit}`);
     this.plot = new uPlot({
       ...this.size(), cursor: { drag: { x: true, y: false } }, legend: { live: true },
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, position: { range: range(kLeastTurns * axis.position(axis.info.counts_per_rev).value) }, speed: { range: range(kLeastSpeed) }, torque: { range: range(kLeastCurrent) } },
       axes: [{ stroke: colour("--quiet"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font,
-        values: (_, ticks) => ticks.map((t) => `${Number(t.toFixed(2))} s`) }, side("position", `position, ${unit}`, false), side("speed", "velocity, rpm", true)],
-      series: [{ label: "time", value: (_, v) => (v === null ? "" : `${v.toFixed(2)} s`) }, line(`position (${unit})`, "position", "--trend-1"), line("velocity (rpm)", "speed", "--trend-2"),
-        { ...line("current (% of peak)", "torque", "--trend-3") }],
+        values: (_, ticks) => ticks.map((t) => `${Number(t.toFixed(2))} s`) }, side("position", `position, ${unit}`, "--trend-1", false), side("speed", "velocity, rpm", "--trend-2", true),
+        side("torque", "current, % of peak", "--trend-3", true)],
+      series: [{ label: "time", value: (_, v) => (v === null ? "" : `${v.toFixed(2)} s`) }, 
+        { ...line(`position (${unit})`, "position", "--trend-1"), value: told(unit, 3) }, { ...line("velocity (rpm)", "speed", "--trend-2"), value: told("rpm", 1) },
+        { ...line("current (% of peak)", "torque", "--trend-3"), value: told("%", 1) }],
       hooks: { setSelect: [(u) => { if (u.select.width > 0) this.zoomed = true; }] },
     }, [[], [], [], []], this.root);
     this.watch.observe(this.root.querySelector(".u-legend")!); // its lines wrap
@@ -111,14 +130,14 @@ export class Trend {
     // The motor is asked for one value after the other: only what has come since the sample before is one.
     const value = (name: string): number | null | undefined => {
       const found = axis.m.get(name);
-      if (!found || (axis.r.LINK ?? 0) !== kLinkUp) return null;
-      if (!found.good || found.at === series.taken.get(name)) return undefined;
+      if (!found?.good || (axis.r.LINK ?? 0) !== kLinkUp) return null;
+      if (found.at === series.taken.get(name)) return undefined;
       series.taken.set(name, found.at);
       return found.raw;
     };
     const [p, v, t] = [value("P_IST"), value("V_IST"), value("VF_OUT")];
     const turn = (raw: number | null | undefined, into: (raw: number) => number): number | null | undefined => (typeof raw === "number" ? into(raw) : raw);
-    this.put(series, seconds, axis.step, turn(p, (raw) => axis.position(raw).value), turn(v, (raw) => axis.speed(raw)), turn(t, (raw) => (raw / 1023) * 100));
+    this.put(series, seconds, axis.step, turn(p, (raw) => axis.position(raw).value), turn(v, (raw) => axis.speed(raw)), turn(t, (raw) => (raw / kFullCurrent) * 100));
   }
 
   private put(series: Series, time: number, step: number, position: Samples[0], speed: Samples[0], torque: Samples[0]): void {
@@ -143,11 +162,11 @@ export class Trend {
   /** Where it is, also while the trend is paused. */
   private tell(): void {
     const axis = this.axis;
-    const [p, v] = [axis?.m.get("P_IST"), axis?.m.get("V_IST")];
+    const [p, v, t] = [axis?.m.get("P_IST"), axis?.m.get("V_IST"), axis?.m.get("VF_OUT")];
     if (!axis || !p) return setText(this.table, "no values of the motor");
     const { value, unit } = axis.position(p.raw);
-    const age = performance.now() - Math.min(p.at, v?.at ?? p.at);
-    setText(this.table, `${value.toFixed(3)} ${unit}, ${v ? axis.speed(v.raw).toFixed(1) : "?"} rpm${age > kOld ? `, ${duration(age)} old` : ""}`);
+    const age = performance.now() - Math.min(p.at, v?.at ?? p.at, t?.at ?? p.at);
+    setText(this.table, `${value.toFixed(3)} ${unit}, ${v ? axis.speed(v.raw).toFixed(1) : "?"} rpm, ${t ? ((t.raw / kFullCurrent) * 100).toFixed(1) : "?"} %${age > kOld ? `, ${duration(age)} old` : ""}`);
     setClass(this.table, "stale", age > kOld);
   }
 

@@ -1,8 +1,8 @@
 // Another table into the gateway: compared with what runs, and asked about before anything is sent.
 import { termInWords } from "./describe";
-import { byId, h, saveFile, setText } from "./dom";
+import { byId, h, saveFile, setClass, setText } from "./dom";
 import type { Operation } from "./operate";
-import { Axis, type Symbols } from "./state";
+import { Axis, symbolsOf, type Symbols } from "./state";
 import { conditionsOf, crc32, decodeTable, readHex, stepsOf, tableLength, type Term } from "./table";
 import type { Wire } from "./wire";
 import { hex } from "./words";
@@ -19,20 +19,36 @@ interface Difference {
 }
 
 const kMostSize = 48 * 1024;
+const kTermBytes = 8;
+const kSmall = /^MAC(50|95|140|141)$/; // their registers are the same: the gateway does not tell them apart
+
+function readNames(name: string, text: string): Symbols {
+  try {
+    const names = JSON.parse(text) as { format?: unknown } | null;
+    if (names?.format === "nanoplc-symbols") return names as Symbols;
+  } catch {
+    // told below, as any other file that is none
+  }
+  throw new Error(`${name} holds no names of a program: take the F.sym that seqc build wrote beside the table`);
+}
 
 async function readFiles(files: FileList): Promise<Chosen> {
   let table: { name: string; bytes: Uint8Array } | null = null;
   let symbols: Symbols | null = null;
   for (const file of files) {
     if (file.size > 4 * kMostSize) throw new Error(`${file.name} is too long for a table or its names`);
-    if (/\.sym$/i.test(file.name)) symbols = JSON.parse(await file.text()) as Symbols;
+    const isNames = /\.sym$/i.test(file.name);
+    if (isNames ? symbols : table) throw new Error(`${[...files].map((one) => one.name).join(", ")}: choose one table and its names, not more`);
+    if (isNames) symbols = readNames(file.name, await file.text());
     else if (/\.(hex|ihex)$/i.test(file.name)) table = { name: file.name, bytes: readHex(await file.text()) };
     else table = { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
   }
   if (!table) throw new Error("choose the table, F.bin or F.hex; F.sym beside it brings the names");
   const length = tableLength(table.bytes);
   if (length === 0) throw new Error(`${table.name} is no table: it has no end term. Compile the program first: seqc build F.seq -o F.bin`);
-  if (length !== table.bytes.length) throw new Error(`${table.name} has ${table.bytes.length - length} bytes behind its end term; upload a certificate with nanoctl`);
+  if (length <= kTermBytes) throw new Error(`${table.name} is an empty table: nothing stands before its end term`);
+  if (length !== table.bytes.length)
+    throw new Error(`${table.name} has ${table.bytes.length - length} bytes behind what looks like its end term: it is no table, or has a certificate, which nanoctl upload takes along`);
   const crc = (symbols as { table?: { crc32?: string } } | null)?.table?.crc32;
   if (crc && parseInt(crc, 16) !== crc32(table.bytes)) throw new Error("the names are those of another table (their CRC-32 differs)");
   return { ...table, symbols };
@@ -85,7 +101,7 @@ export class Upload {
   }
 
   private open(): void {
-    if (!this.operation.operates) return this.operation.notice("Switch to operating first.");
+    if (!this.operation.operates) return void this.operation.notice("Switch to operating first.");
     this.chosen = null;
     this.files.value = "";
     this.list.replaceChildren();
@@ -102,6 +118,7 @@ export class Upload {
   private async choose(): Promise<void> {
     this.enable(false);
     this.list.replaceChildren();
+    setClass(this.text, "warning", false);
     try {
       this.chosen = await readFiles(this.files.files!);
     } catch (error) {
@@ -113,13 +130,17 @@ export class Upload {
     const terms = decodeTable(this.chosen.bytes);
     next.program = {
       file: this.chosen.name, crc: crc32(this.chosen.bytes), bytes: this.chosen.bytes, proof: "", since: -1,
-      symbols: this.chosen.symbols ?? {}, hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps: stepsOf(terms),
+      symbols: symbolsOf(this.chosen.symbols), hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps: stepsOf(terms),
     };
     const differences = now.program?.crc === next.program.crc ? [] : compare(now, next);
-    const name = this.chosen.symbols?.program ?? this.chosen.name;
-    setText(this.text, differences.length
+    const { program, motor } = next.program.symbols;
+    const name = program ?? this.chosen.name;
+    const isForAnother = motor !== undefined && !now.info.motor.startsWith(motor) && !(kSmall.test(motor) && kSmall.test(now.info.motor));
+    const warning = isForAnother ? `It was compiled for a ${motor}, and this axis has a ${now.info.motor}: its moves may be others. ` : "";
+    setClass(this.text, "warning", isForAnother);
+    setText(this.text, warning + (differences.length
       ? `${name}, ${terms.length} terms, CRC-32 ${hex(next.program.crc)}, differs from what is active (${now.programName()}, ${hex(now.program?.crc ?? 0)}) in ${differences.length} terms. Making it active stops the sequence.`
-      : `${name} is the table that is active already (CRC-32 ${hex(next.program.crc)}).`);
+      : `${name} is the table that is active already (CRC-32 ${hex(next.program.crc)}).`));
     this.list.replaceChildren(...differences.map((d) => h("li", { class: d.kind === "+" ? "added" : "gone" }, `${d.kind} ${d.text}`)));
     this.enable(true);
   }

@@ -1,4 +1,5 @@
 // Why does it not move? What the gateway finds, as every other face tells it, and what only the page knows beside it.
+import { inPanel } from "./remedies";
 import type { Axis } from "./state";
 import type { Waits } from "./waits";
 
@@ -18,15 +19,19 @@ export interface Finding {
   remedy: string;
 }
 
-const findingOf = (cause: Cause): Finding =>
-  ({ text: cause.text, basis: `${[...cause.sources, cause.code].join(", ")} (${cause.number})`, remedy: cause.remedy });
-
-/** What to mend first in front. */
-export function whyNot(axis: Axis, waits: Waits): Finding[] {
-  const causes = axis.why ?? [];
+/** What to mend first in front. `operates`: the buttons that act are on the page. */
+export function whyNot(axis: Axis, waits: Waits, operates: boolean): Finding[] {
+  const causes = (axis.why ?? []).filter((cause, i, all) => all.findIndex((one) => one.code === cause.code) === i); // the nearest of each
+  const findingOf = (cause: Cause): Finding => {
+    const remedy = inPanel(cause.remedy, axis.isHeld, operates);
+    const isRefused = axis.stopUnconfirmed && /“(Run|Go on|Step)”/.test(remedy);
+    return { text: cause.text, basis: `${[...cause.sources, cause.code].join(", ")} (${cause.number})`, remedy: isRefused ? "" : remedy };
+  };
   const isFirst = (cause: Cause): boolean => cause.severity !== "tells" || cause.code === "moves";
   const list = causes.filter(isFirst).map(findingOf);
   const add = (text: string, basis: string, remedy: string): void => void list.push({ text, basis, remedy });
+  if (axis.stopUnconfirmed) list.unshift({ text: "It may be moving: the motor was told to stop and has not confirmed it.", basis: "STATUS bit 19 = 1",
+    remedy: "Look at the machine, and at the motor's supply and line. “Run” is refused until the motor has confirmed the stop or the stop was given up." });
   if (!axis.why) add("What keeps the motor from moving is not known yet.", "", "Its registers are read, 2 to 5 seconds long, while it answers.");
   if (!axis.hasTable) add("There is no table.", "STATUS bit 11 = 0", "Upload one.");
   if ((axis.r.LINK ?? 0) === 2) add("The link was lost and is back, but the sequence has not acknowledged it.", "LINK = 2", "The sequence must send “reset error” (01h).");
