@@ -118,9 +118,11 @@ MODULES = [
          "mactalk_client", "command_line", "digest", "proof", "set_points", "signature", "spelling", "update", "uploads", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
-    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
+    # The one model of what a table does: seqc and the verifier read it, neither reads a term's bytes itself.
+    Module("tools/seqc/table", "table", ("base", "sequencer", "protocol", "registers")),
+    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers", "table")),
     Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "dap", "digest", "intel_hex",
-                                    "proof", "rehearsal", "rpc", "set_points", "spelling", "verify", "whole_files")),
+                                    "proof", "rehearsal", "rpc", "set_points", "spelling", "table", "verify", "whole_files")),
     Module("tools/seqc/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "spelling",
                                       "whole_files")),
     # The one door from seqc to the simulator: scenarios are read and programs rehearsed by what nanoplc-sim uses.

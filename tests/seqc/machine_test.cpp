@@ -64,7 +64,7 @@ TEST(Machine, ReactionsLeaveOutWhatStaysAsItIs) {
     EXPECT_EQ(reactions[0].when, truth_of_bit(kInput0) & ~truth_of_bit(kErrorBit));
     EXPECT_FALSE(reactions[0].outcome.outputs);  // Run's own
     EXPECT_EQ(reactions[1].outcome.next, kIdle);
-    EXPECT_EQ(reactions[1].outcome.counter, CounterChange::count_down);
+    EXPECT_EQ(reactions[1].outcome.counter, table::CounterChange::count_down);
     EXPECT_EQ(reactions[2].outcome.next, kFault);
     EXPECT_TRUE(reactions[2].only_on_error());
 }

@@ -1,11 +1,13 @@
 // What a step does in each case, from its bytes, against the machine that runs them and against a reading of
-// our own.
-#include "lowering/scan.h"
+// our own; what orders do to a motion, against the manual's list.
 
 #include <gtest/gtest.h>
 
 #include "random_table.h"
+#include "semantics/truth.h"
 #include "sequencer/engine.h"
+#include "table/orders.h"
+#include "table/step.h"
 
 namespace nplc::seqc {
 namespace {
@@ -13,13 +15,10 @@ namespace {
 using sequencer::Engine;
 using sequencer::MotorOrder;
 using sequencer::State;
-
-std::vector<sequencer::TermView> terms_of(const std::vector<std::uint8_t>& table) {
-    std::vector<sequencer::TermView> terms;
-    for (std::size_t at = 0; at < table.size(); at += sequencer::kTermBytes)
-        terms.push_back(std::span(table).subspan(at).first<sequencer::kTermBytes>());
-    return terms;
-}
+using table::CounterChange;
+using table::MotionEffect;
+using table::OrderKind;
+using table::Outcome;
 
 std::string in_short(const MotorOrder& order) {
     char text[40];
@@ -39,13 +38,8 @@ State state_in(std::size_t c, std::uint8_t step, std::uint8_t outputs) {
     return state;
 }
 
-State after(const ScanResult& outcome, State state) {
-    state.step = outcome.next;
-    state.outputs = outcome.outputs.value_or(state.outputs);
-    if (outcome.timer != 0) state.timer = outcome.timer;
-    if (outcome.counter == CounterChange::clear) state.counter = 0;
-    if (outcome.counter == CounterChange::preset) state.counter = outcome.counter_preset;
-    if (outcome.counter == CounterChange::count_down && state.counter != 0) --state.counter;
+State after(const Outcome& outcome, State state) {
+    outcome.apply(state);
     return state;
 }
 
@@ -60,14 +54,14 @@ TEST(Scan, DoesWhatTheEngineDoes) {
         ASSERT_TRUE(loaded.ok);
         Engine engine(loaded.table);
         for (std::uint8_t step = 0; step < kSteps; ++step) {
-            const StepBehaviour behaviour = behaviour_of(step, terms_of(table));
+            const table::Step behaviour = table::step_of(step, table::terms_of(table));
             EXPECT_EQ(static_cast<int>(behaviour.terms), test::terms_of(table, step));
             for (std::size_t c = 0; c < kCases; ++c) {
                 const State before = state_in(c, step, static_cast<std::uint8_t>(random() % 16));
                 engine.restore(before);
                 std::vector<MotorOrder> orders;
                 engine.scan(static_cast<std::uint8_t>(c), [&](const MotorOrder& o) { orders.push_back(o); });
-                const ScanResult& outcome = behaviour.in(c);
+                const Outcome& outcome = behaviour.in(c);
                 ASSERT_EQ(after(outcome, before), engine.state()) << "seed " << kSeed << ", round " << round;
                 ASSERT_EQ(outcome.orders, orders) << "seed " << kSeed << ", round " << round;
                 if (engine.state() != before || !orders.empty()) ++acted;
@@ -83,9 +77,9 @@ TEST(Scan, DoesWhatTheBytesSay) {
     for (int round = 0; round < 60; ++round) {
         const auto table = test::random_table(random, 3, 1 + random() % 30);
         for (std::uint8_t step = 0; step < 3; ++step) {
-            const StepBehaviour behaviour = behaviour_of(step, terms_of(table));
+            const table::Step behaviour = table::step_of(step, table::terms_of(table));
             for (unsigned c = 0; c < kCases; ++c) {
-                const ScanResult& outcome = behaviour.in(c);
+                const Outcome& outcome = behaviour.in(c);
                 const test::Scan scan = test::scan_case(table, step, c);
                 std::vector<std::string> sends;
                 for (const MotorOrder& order : outcome.orders) sends.push_back(in_short(order));
@@ -104,6 +98,53 @@ TEST(Scan, DoesWhatTheBytesSay) {
             }
         }
     }
+}
+
+/// 001 §5.2.1.4: bits 6..5 the mode, bits 4..0 a register or a number.
+TEST(Orders, DoToAMotionWhatTheManualSays) {
+    const auto effect_of = [](unsigned command) {
+        return table::effect_of(table::kind_of(MotorOrder{.command = static_cast<std::uint8_t>(command)}));
+    };
+    for (unsigned rest = 0; rest < 32; ++rest) {
+        EXPECT_EQ(effect_of(rest), MotionEffect::init);
+        EXPECT_EQ(effect_of(0x20 + rest), MotionEffect::run);
+        EXPECT_EQ(effect_of(0x40 + rest), rest < 8 ? MotionEffect::place : MotionEffect::hold);
+        const bool moves =
+            rest == 8 || rest == 9 || (rest >= 0x0C && rest <= 0x0F) || rest == 0x11 || rest == 0x12;
+        const MotionEffect wanted = moves                    ? MotionEffect::place
+                                    : rest == 2 || rest == 4 ? MotionEffect::target
+                                    : rest == 5              ? MotionEffect::stop
+                                    : rest == 0x10           ? MotionEffect::home
+                                                             : MotionEffect::none;
+        EXPECT_EQ(effect_of(0x60 + rest), wanted) << rest;
+    }
+}
+
+/// 001 §3.2.2 and §4.4: with these values of MODE_REG the motor sets IN_POS.
+TEST(Orders, KnowTheModes) {
+    for (std::uint32_t mode = 0; mode < 30; ++mode) {
+        const MotorOrder order{.is_register_write = true, .reg = 2, .value = mode};
+        const OrderKind kind = table::kind_of(order);
+        const bool in_position =
+            mode == 1 || mode == 2 || mode == 3 || (mode >= 17 && mode <= 21) || mode == 24;
+        const bool homes = mode >= 12 && mode <= 14;
+        EXPECT_EQ(table::is_silent(kind), !in_position && !homes && mode != 0) << mode;
+        EXPECT_EQ(table::outlasts_stop(table::effect_of(kind)),
+                  homes || mode == 4 || (mode >= 7 && mode <= 10) || mode == 22 || mode == 23)
+            << mode;
+    }
+}
+
+TEST(Orders, KnowTheRegistersTheyUse) {
+    EXPECT_EQ(table::selected_register({.command = 0x47}), 63);  // POSITION(P8)
+    EXPECT_EQ(table::velocity_taken({.command = 0x29}), 66);     // VELOCITY(V2)
+    EXPECT_EQ(table::velocity_taken({.command = 0x6F}), 68);     // USE_SET(4)
+    EXPECT_EQ(table::velocity_taken({.command = 0x65}), 0);
+    EXPECT_EQ(table::velocity_taken({.is_register_write = true, .reg = 44, .value = 3}), 67);
+    EXPECT_TRUE(table::may_reset_error({.command = 0x61}));
+    EXPECT_TRUE(table::may_reset_error({.is_register_write = true, .reg = 35}));
+    EXPECT_TRUE(table::may_reset_error({.is_register_write = true, .reg = 34, .longword = true}));
+    EXPECT_FALSE(table::may_reset_error({.is_register_write = true, .reg = 34}));
 }
 
 }  // namespace

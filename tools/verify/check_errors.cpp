@@ -47,20 +47,20 @@ class Errors {
     void find_fault_steps() {
         for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
             for (unsigned zeros = 0; zeros < 4; ++zeros) {
-                const auto row = machine_.groups(step, (zeros & 1U) != 0, (zeros & 2U) != 0);
-                for (const Group& group : row) note_fault_step(step, row, group);
+                for (unsigned image = sequencer::kError; image < 256; ++image)
+                    note_fault_step(step, zeros, static_cast<std::uint8_t>(image));
             }
         }
     }
 
-    void note_fault_step(std::uint8_t step, std::span<const Group> row, const Group& group) {
-        const std::uint8_t next = group.pending.next_step;
-        if (next > sequencer::kLastStep || next == step || next == 0) return;
-        for (unsigned image = sequencer::kError; image < 256; ++image) {
-            if (!group.images[image]) continue;
-            const Group& without = group_with(row, image & ~unsigned{sequencer::kError});
-            if (without.pending.next_step != next) is_fault_step_[next] = true;
-        }
+    void note_fault_step(std::uint8_t step, unsigned zeros, std::uint8_t image) {
+        const auto next_with = [&](std::uint8_t seen) {
+            return machine_.group_with(step, (zeros & 1U) != 0, (zeros & 2U) != 0, seen).outcome.next;
+        };
+        const std::uint8_t next = next_with(image);
+        if (next == step || next == 0) return;
+        if (next_with(static_cast<std::uint8_t>(image & ~sequencer::kError)) != next)
+            is_fault_step_[next] = true;
     }
 
     /// A property of a step also applies to its copies, whichever of them ERROR leads to.
@@ -127,7 +127,7 @@ class Errors {
             const auto edges = explorer_.edges_from(node);
             const auto left = std::find_if(edges.begin(), edges.end(), [&](const Explorer::Edge& edge) {
                 const Group& group = explorer_.group_of(edge);
-                return group.error && !group.pending.has_output;
+                return group.error && !group.outcome.outputs;
             });
             if (left == edges.end()) continue;
             auto way = courses_.with(*left);

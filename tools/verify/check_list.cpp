@@ -26,19 +26,10 @@ constexpr std::array kChecks = {
 };
 
 bool same_outcome(const Group& a, const Group& b) {
-    return &a == &b || (a.pending == b.pending && a.orders == b.orders);
+    return &a == &b || a.outcome == b.outcome;
 }
 
 using Row = std::array<const Group*, 256>;
-
-Row by_image(std::span<const Group> groups) {
-    Row row{};
-    for (const Group& group : groups) {
-        for (std::size_t i = group.images._Find_first(); i < 256; i = group.images._Find_next(i))
-            row[i] = &group;
-    }
-    return row;
-}
 
 ImageSet differing(const Row& a, const Row& b) {
     ImageSet set;
@@ -52,17 +43,13 @@ std::span<const Check> checks() {
     return kChecks;
 }
 
-const Group& group_with(std::span<const Group> row, unsigned image) {
-    std::size_t i = 0;
-    while (!row[i].images[image]) ++i;
-    return row[i];
-}
-
 Sensitivity::Sensitivity(const Machine& machine) : timer_(63 * 2), counter_(63 * 2), in_pos_(63) {
     for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
         std::array<Row, 4> rows;
-        for (unsigned zeros = 0; zeros < 4; ++zeros)
-            rows[zeros] = by_image(machine.groups(step, (zeros & 1U) != 0, (zeros & 2U) != 0));
+        for (unsigned i = 0; i < 4 * 256; ++i) {
+            const auto image = static_cast<std::uint8_t>(i);
+            rows[i >> 8U][image] = &machine.group_with(step, (i & 0x100U) != 0, (i & 0x200U) != 0, image);
+        }
         for (unsigned other = 0; other < 2; ++other) {
             timer_[step * 2U + other] = differing(rows[other * 2U], rows[other * 2U + 1]);
             counter_[step * 2U + other] = differing(rows[other], rows[other + 2U]);

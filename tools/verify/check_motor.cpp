@@ -15,6 +15,7 @@ namespace {
 
 using Node = Explorer::Node;
 using sequencer::MotorOrder;
+using table::OrderKind;
 
 std::string order_text(const MotorOrder& order) {
     return order.is_register_write ? fmt::format("{}={}", order.reg, order.value)
@@ -26,7 +27,7 @@ template <class IsSuch>
 std::vector<bool> of_groups(const Machine& machine, const IsSuch& is_such) {
     std::vector<bool> result;
     for (const Group& group : machine.all_groups())
-        result.push_back(std::any_of(group.orders.begin(), group.orders.end(), is_such));
+        result.push_back(std::any_of(group.outcome.orders.begin(), group.outcome.orders.end(), is_such));
     return result;
 }
 
@@ -46,7 +47,7 @@ std::vector<const Group*> used_groups(const Explorer& explorer) {
 std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
     const auto moves = of_groups(explorer.machine(), [](const MotorOrder& order) {
-        return begins_motion(kind_of(order)) || ends_motion(kind_of(order));
+        return begins_motion(order) || ends_motion(order);
     });
     std::vector<bool> sees(explorer.size());
     std::vector<Node> open;
@@ -67,7 +68,8 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
     std::vector<Finding> findings;
     if (open.empty()) return findings;
     std::vector<bool> goes(explorer.machine().all_groups().size());
-    for (const Group& group : explorer.machine().all_groups()) goes[group.number] = begins_move(group.orders);
+    for (const Group& group : explorer.machine().all_groups())
+        goes[group.number] = begins_move(group.outcome.orders);
     std::array<bool, 63> told{};
     for (const Explorer::Edge& edge : explorer.edges()) {
         if (sees[edge.to] || !goes[edge.group]) continue;
@@ -100,8 +102,8 @@ bool waits_for_in_pos(const Machine& machine, std::uint8_t step) {
     std::uint64_t with = 0;
     std::uint64_t without = 0;
     for (const Group& group : machine.groups(step, false, false)) {
-        const std::uint8_t next = group.pending.next_step;
-        if (next == sequencer::kNoSwitch || next == step) continue;
+        const std::uint8_t next = group.outcome.next;
+        if (next == step) continue;
         const ImageSet calm = group.images & ~images_with_bit(7);
         if ((calm & images_with_bit(6)).any()) with |= std::uint64_t{1} << next;
         if ((calm & ~images_with_bit(6)).any()) without |= std::uint64_t{1} << next;
@@ -117,7 +119,7 @@ std::vector<Finding> find_no_limit(const Subject& subject, const Sensitivity& se
     std::vector<Finding> findings;
     for (const Explorer::Edge& edge : explorer.edges()) {
         const std::uint8_t step = explorer.place(edge.to).step;
-        if (!no_limit[step] || told[step] || !begins_move(explorer.group_of(edge).orders) ||
+        if (!no_limit[step] || told[step] || !begins_move(explorer.group_of(edge).outcome.orders) ||
             !waits_for_in_pos(explorer.machine(), step))
             continue;
         auto course = subject.courses.with(edge);
@@ -147,7 +149,7 @@ ZeroRegisters zero_registers(const Subject& subject) {
     ZeroRegisters zeros;
     ZeroRegisters others;
     for (const Group* group : used_groups(subject.explorer)) {
-        for (const MotorOrder& order : group->orders) {
+        for (const MotorOrder& order : group->outcome.orders) {
             if (order.is_register_write) (order.value == 0 ? zeros : others).set(order.reg & 0x7FU);
         }
     }
@@ -167,9 +169,10 @@ MotorChange change_by(const Group& group, std::uint16_t before, const ZeroRegist
     MotorState motor = MotorState::unpacked(before);
     if (group.error) motor = {MotorState::Mode::init, motor.speed, true};
     bool begins = false;
-    for (const MotorOrder& order : group.orders) {
+    for (const MotorOrder& order : group.outcome.orders) {
         motor.apply(order, zeros);
-        begins = begins || kind_of(order) == OrderKind::place;
+        const OrderKind kind = table::kind_of(order);
+        begins = begins || kind == OrderKind::place || kind == OrderKind::moves_by;
     }
     const bool stands = begins && !group.error && motor.stands();
     return {true, motor.packed(), stands ? why_zero(motor.speed) : nullptr};
@@ -222,20 +225,20 @@ std::optional<std::pair<MotorOrder, MotorOrder>> undone(const std::vector<MotorO
     std::optional<MotorOrder> move;
     std::map<std::uint8_t, MotorOrder> written;
     for (const MotorOrder& order : orders) {
-        const OrderKind kind = kind_of(order);
+        const OrderKind kind = table::kind_of(order);
         if (order.is_register_write) {
             const auto [before, is_new] = written.try_emplace(order.reg, order);
             if (!is_new && before->second.value != order.value) return {{before->second, order}};
-        } else if (const std::uint8_t selected = selected_register(order); selected != 0) {
+        } else if (const std::uint8_t selected = table::selected_register(order); selected != 0) {
             written.erase(selected);
         }
-        const bool cancels = begins_motion(kind) || ends_motion(kind) || kind == OrderKind::silent;
-        const bool homing = move && kind_of(*move) == OrderKind::home;
-        const bool same_mode = move && kind_of(*move) == OrderKind::velocity && kind == OrderKind::velocity;
-        if (move && !same_mode && (cancels || (homing && kind == OrderKind::holds_place)) &&
-            kind != OrderKind::set)
-            return {{*move, order}};
-        if (begins_motion(kind) && kind != OrderKind::set) move = order;
+        const bool begins = begins_motion(order) && kind != OrderKind::set;
+        const bool cancels = begins || ends_motion(order) || table::is_silent(kind);
+        const auto moving = move ? table::kind_of(*move) : OrderKind::nothing;
+        const bool same_mode = moving == OrderKind::run && kind == OrderKind::run;
+        const bool holds = moving == OrderKind::home && kind == OrderKind::hold;
+        if (move && !same_mode && (cancels || holds)) return {{*move, order}};
+        if (begins) move = order;
     }
     return std::nullopt;
 }
@@ -245,8 +248,8 @@ std::vector<Finding> find_undone(const Subject& subject) {
     std::array<bool, 63> told{};
     for (const Group* group : used_groups(subject.explorer)) {
         const std::uint8_t step = subject.explorer.place(subject.explorer.first_use(*group)).step;
-        if (group->orders.size() < 2 || told[step]) continue;
-        const auto pair = undone(group->orders);
+        if (group->outcome.orders.size() < 2 || told[step]) continue;
+        const auto pair = undone(group->outcome.orders);
         if (!pair) continue;
         auto course = subject.courses.with(subject.explorer.first_edge_with(*group));
         if (!course) continue;
@@ -265,10 +268,10 @@ std::vector<Finding> find_never_written(const Subject& subject) {
     std::map<std::uint8_t, const Group*> selected;
     std::array<bool, 128> written{};
     for (const Group* group : used_groups(subject.explorer)) {
-        for (const MotorOrder& order : group->orders) {
+        for (const MotorOrder& order : group->outcome.orders) {
             if (order.is_register_write) {
                 written[order.reg & 0x7FU] = true;
-            } else if (const std::uint8_t reg = selected_register(order); reg != 0) {
+            } else if (const std::uint8_t reg = table::selected_register(order); reg != 0) {
                 selected.try_emplace(reg, group);
             }
         }

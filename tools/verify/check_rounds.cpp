@@ -38,8 +38,8 @@ class Rounds {
           state_(explorer_.size(), State::fresh) {
         for (Node node = 0; node < explorer_.size(); ++node) nodes_[corner_of(node)].push_back(node);
         for (const Group& group : machine_.all_groups()) {
-            moves_.push_back(std::any_of(group.orders.begin(), group.orders.end(),
-                                         [](const auto& order) { return begins_motion(kind_of(order)); }));
+            moves_.push_back(
+                std::any_of(group.outcome.orders.begin(), group.outcome.orders.end(), begins_motion));
         }
     }
 
@@ -63,16 +63,14 @@ class Rounds {
 
     /// The start of the next scan if no time passes; two where the counter goes down and may be zero.
     void find_next(Corner corner) {
-        const sequencer::Pending& pending = group_at(corner).pending;
-        const std::uint8_t step =
-            pending.next_step == sequencer::kNoSwitch ? step_of(corner) : pending.next_step;
-        const bool runs = (corner & 1U) != 0 || pending.timer_preset != 0;
+        using table::CounterChange;
+        const table::Outcome& outcome = group_at(corner).outcome;
+        const bool runs = (corner & 1U) != 0 || outcome.timer != 0;
         const bool was_zero = (corner & 2U) != 0;
-        const bool clears = (pending.output_byte & 0x40U) != 0;
-        const bool presets = !clears && pending.counter_preset != 0;
-        const bool counts = !clears && !presets && (pending.output_byte & 0x80U) != 0 && !was_zero;
-        next_[corner] = verify::corner_of(step, runs, clears || (was_zero && !presets));
-        other_[corner] = counts ? verify::corner_of(step, runs, true) : next_[corner];
+        const bool is_zero = outcome.sets_counter() ? outcome.counter == CounterChange::clear : was_zero;
+        const bool counts = outcome.counter == CounterChange::count_down && !was_zero;
+        next_[corner] = verify::corner_of(outcome.next, runs, is_zero);
+        other_[corner] = counts ? verify::corner_of(outcome.next, runs, true) : next_[corner];
     }
 
     /// Corners through which others can follow for ever without an answer of the motor.
@@ -169,7 +167,7 @@ class Rounds {
         return {.node = node,
                 .edges = explorer_.edges_from(node),
                 .group = group.number,
-                .runs = here.runs || group.pending.timer_preset != 0};
+                .runs = here.runs || group.outcome.timer != 0};
     }
 
     /// The next scan with the image after which no time has passed: the only one, or one for each count of a

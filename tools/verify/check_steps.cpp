@@ -20,8 +20,7 @@ struct StepGraph {
         for (const Group& group : explorer.machine().all_groups()) {
             if (explorer.first_use(group) == Explorer::kNone) continue;
             const std::uint8_t from = explorer.place(explorer.first_use(group)).step;
-            const std::uint8_t to =
-                group.pending.next_step == sequencer::kNoSwitch ? from : group.pending.next_step;
+            const std::uint8_t to = group.outcome.next;
             next[from] |= bit_of(to);
             if (from == 0 && !group.error) first |= bit_of(to);
         }

@@ -25,10 +25,8 @@ std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity,
             const bool counter_zero = (zeros & 2U) != 0;
             for (const Group& group : machine.groups(step, timer_zero, counter_zero)) {
                 Use& use = uses.emplace_back();
-                const sequencer::Pending& pending = group.pending;
-                use.sets = timer ? pending.timer_preset != 0
-                                 : pending.counter_preset != 0 || (pending.output_byte & 0x40U) != 0;
-                use.leaves = pending.next_step != sequencer::kNoSwitch && pending.next_step != step;
+                use.sets = timer ? group.outcome.timer != 0 : group.outcome.sets_counter();
+                use.leaves = group.outcome.next != step;
                 if (timer ? timer_zero : counter_zero) {
                     use.decided = group.images & (timer ? sensitivity.to_timer(step, counter_zero)
                                                         : sensitivity.to_counter(step, timer_zero));
@@ -73,13 +71,14 @@ std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensi
     return findings;
 }
 
-/// Steps that a timer at zero leads to where a running one does not.
+/// Steps that a timer at zero leads to where a running one does not; kNoSwitch: it stays, and does something.
 std::uint64_t led_to(const Machine& machine, const Sensitivity& sensitivity, std::uint8_t step) {
     std::uint64_t steps = 0;
     for (const bool counter_zero : {false, true}) {
         for (const Group& group : machine.groups(step, true, counter_zero)) {
+            const std::uint8_t to = group.outcome.next == step ? sequencer::kNoSwitch : group.outcome.next;
             if ((group.images & sensitivity.to_timer(step, counter_zero)).any())
-                steps |= std::uint64_t{1} << group.pending.next_step;
+                steps |= std::uint64_t{1} << to;
         }
     }
     return steps;
@@ -96,7 +95,7 @@ class OtherPurpose {
 
     std::vector<Finding> find() {
         for (const Group& group : explorer_.machine().all_groups())
-            presets_.push_back(group.pending.timer_preset != 0);
+            presets_.push_back(group.outcome.timer != 0);
         users_.resize(explorer_.size());
         Walk walk(explorer_, excluded_);
         for (const Explorer::Edge& edge : explorer_.edges()) {

@@ -21,9 +21,8 @@ Excluded::Symbol Excluded::symbol_of(const CourseScan& scan) {
     const Group& group = *scan.group;
     const bool is_seen_moving = is_timed(scan.place.motion) && !group.in_pos && !group.disturbs;
     const unsigned flags = (scan.idle ? 1U : 0U) | (scan.place.runs ? 2U : 0U) | (scan.next_runs ? 4U : 0U) |
-                           (is_seen_moving ? 8U : 0U) | (begins_move(group.orders) ? 16U : 0U);
-    const TimesKey times{scan.delay.least, scan.delay.most, group.delay.end, group.pending.timer_preset,
-                         flags};
+                           (is_seen_moving ? 8U : 0U) | (begins_move(group.outcome.orders) ? 16U : 0U);
+    const TimesKey times{scan.delay.least, scan.delay.most, group.delay.end, group.outcome.timer, flags};
     const ExactKey exact{scan.place.packed(), group.number, (scan.next_runs ? 1U << 16U : 0U) | scan.counter,
                          scan.delay.most};
     return {times_.try_emplace(times, static_cast<std::uint32_t>(times_.size())).first->second,

@@ -96,51 +96,60 @@ const Condition* beginning_of(const Formula& formula) {
     return nullptr;
 }
 
-std::string condition_of(const ManualTerm& term) {
+std::string condition_of(const sequencer::Condition& condition) {
     std::vector<std::string> parts;
-    if (term.timer_must_be_zero) parts.emplace_back("!timer_runs");
-    if (term.counter_must_be_zero) parts.emplace_back("counter == 0");
+    if (condition.needs_timer_zero) parts.emplace_back("!timer_runs");
+    if (condition.needs_counter_zero) parts.emplace_back("counter == 0");
+    const unsigned compared = condition.care | unsigned{sequencer::kError};
     for (unsigned bit = 0; bit < 8; ++bit) {
-        if (((term.compared >> bit) & 1U) == 0) continue;
-        parts.push_back(fmt::format("{}{}", ((term.input >> bit) & 1U) != 0 ? "" : "!", kBits[bit]));
+        if (((compared >> bit) & 1U) == 0) continue;
+        parts.push_back(fmt::format("{}{}", ((condition.input >> bit) & 1U) != 0 ? "" : "!", kBits[bit]));
     }
     return fmt::format("{}", fmt::join(parts, " && "));
 }
 
 /// motion after an order: those that change it, each with what it becomes.
-std::string effect_text(ManualMotion motion) {
-    const ManualMotions& then = effect_of(motion);
-    if (std::count(then.begin(), then.end(), then[0]) == std::ptrdiff_t{kManualMotions})
-        return fmt::format("{}", then[0]);
+std::string effect_text(const sequencer::MotorOrder& order) {
+    constexpr unsigned kMotionCount{kMotions};
+    const auto then = [&](unsigned before) {
+        return static_cast<unsigned>(motion_after(static_cast<Motion>(before), order));
+    };
     std::string text = "motion";
-    for (std::size_t before = 0; before < then.size(); ++before) {
-        if (then[before] != before)
-            text = fmt::format("(motion == {} -> {} : {})", before, then[before], text);
+    bool is_one = true;
+    for (unsigned before = 0; before < kMotionCount; ++before) {
+        is_one = is_one && then(before) == then(0);
+        if (then(before) != before)
+            text = fmt::format("(motion == {} -> {} : {})", before, then(before), text);
     }
-    return text;
+    return is_one ? fmt::format("{}", then(0)) : text;
 }
 
-std::string motion_text(const ManualTerm& term, const Question& question) {
-    if (!question.tells_motion || (term.motion == ManualMotion::keeps && term.clears == 0)) return {};
-    const std::string then = effect_text(term.motion);
-    if (term.clears == 0 || !question.clears_all()) {
-        const bool begins = question.move_ms != 0 && is_manual_timed(effect_of(term.motion)[0]);
+std::string motion_text(const QuestionTerm& term, const Question& question) {
+    if (!question.tells_motion || !term.order) return {};
+    const unsigned cleared = term.cleared();
+    if (cleared == 0 && table::effect_of(table::kind_of(*term.order)) == table::MotionEffect::none) return {};
+    const std::string then = effect_text(*term.order);
+    if (cleared == 0 || !question.clears_all()) {
+        const bool begins = question.move_ms != 0 && is_timed(motion_after(Motion::none, *term.order));
         return fmt::format("motion = {}{}{}", then, question.clears_all() ? "; cleared = 0" : "",
                            begins ? "; moved = 0" : "");
     }
     return fmt::format(
         "before_clear = (cleared == 0 -> motion : before_clear); cleared = cleared | {}; "
         "motion = (cleared == {} -> before_clear : {})",
-        term.clears, kAllCleared, then);
+        cleared, kAllCleared, then);
 }
 
-std::string commands_of(const ManualTerm& term, const Question& question) {
+std::string commands_of(const QuestionTerm& term, const Question& question) {
     const std::string motion = motion_text(term, question);
-    if (term.is_flexmac) return motion;  // only a command to the motor
-    std::string text = fmt::format("wrote = true; output_byte = {}", term.output_byte);
-    if (term.names_next) text += fmt::format("; next_step = {}", term.next_state);
-    if (term.word != 0)
-        text += fmt::format("; {}_preset = {}", term.word_is_counter ? "counter" : "timer", term.word);
+    if (term.term.is_flex) return motion;  // only a command to the motor
+    const sequencer::FastStatement& fast = term.term.fast;
+    std::string text =
+        fmt::format("wrote = true; output_byte = {}",
+                    fast.outputs + (fast.clears_counter ? 64 : 0) + (fast.counts_down ? 128 : 0));
+    if (fast.next_step != sequencer::kNoSwitch) text += fmt::format("; next_step = {}", fast.next_step);
+    if (fast.preset != 0)
+        text += fmt::format("; {}_preset = {}", fast.presets_counter ? "counter" : "timer", fast.preset);
     if (!motion.empty()) text += "; " + motion;
     return text;
 }
@@ -153,13 +162,14 @@ std::string terms_text(const Question& question) {
         unsigned terms = 0;
     };
     std::map<std::uint8_t, Step> steps;
-    for (const ManualTerm& term : question.terms) {
+    for (const QuestionTerm& term : question.terms) {
         const std::string commands = commands_of(term, question);
         if (commands.empty()) continue;
-        Step& step = steps[term.state];
+        Step& step = steps[term.term.condition.step];
         if (step.terms++ % kAtOnce == 0)
             step.text += step.text.empty() ? "d_step {\n" : "         };\n         d_step {\n";
-        step.text += fmt::format("         if :: {} -> {} :: else fi;\n", condition_of(term), commands);
+        step.text +=
+            fmt::format("         if :: {} -> {} :: else fi;\n", condition_of(term.term.condition), commands);
     }
     std::string text = "      if\n";
     for (const auto& [number, step] : steps)

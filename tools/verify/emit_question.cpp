@@ -1,5 +1,7 @@
 #include "emit_question.h"
 
+#include "table/step.h"
+
 namespace nplc::verify {
 namespace {
 
@@ -70,7 +72,7 @@ Watch watch_of(const Property& property) {
 
 Question::Question(std::span<const std::uint8_t> table, const std::vector<Property>& asked,
                    const std::vector<Assumption>& assumed, bool with_holds)
-    : terms(manual_terms(table)), properties(asked), assumptions(assumed) {
+    : properties(asked), assumptions(assumed) {
     for (const Property& property : properties) {
         const bool is_hold = property.form == Form::never_while;
         if (is_hold && !with_holds) continue;
@@ -85,11 +87,14 @@ Question::Question(std::span<const std::uint8_t> table, const std::vector<Proper
     }
     if (move_ms != 0) tells_motion = true;
     if (tells_motion) used |= 0xC0U;
-    for (const ManualTerm& term : terms) {
-        used |= term.compared;
-        if (term.is_flexmac) continue;
-        unsigned& greatest = term.word_is_counter ? greatest_counter : greatest_timer;
-        greatest = std::max<unsigned>(greatest, term.word);
+    for (const sequencer::TermView bytes : table::terms_of(table)) {
+        QuestionTerm& one = terms.emplace_back();
+        one.term = sequencer::decode(bytes);
+        if (sequencer::has_order(bytes)) one.order = sequencer::order_of(bytes);
+        used |= one.term.condition.care | unsigned{sequencer::kError};
+        if (one.term.is_flex) continue;
+        unsigned& greatest = one.term.fast.presets_counter ? greatest_counter : greatest_timer;
+        greatest = std::max<unsigned>(greatest, one.term.fast.preset);
     }
 }
 

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "manual_term.h"
+#include "motor_orders.h"
+#include "sequencer/term.h"
 #include "verify/property.h"
 
 /// The question to an external checker, in addition to the table: which scan breaks a property (or is to be
@@ -43,9 +47,18 @@ inline bool asks_for_ways(const Property& property) {
     return property.form == Form::always_possible || property.form == Form::after_possible;
 }
 
+/// What becomes of each Motion.
+using Motions = std::array<Motion, kMotions>;
+
+struct QuestionTerm {
+    sequencer::Term term;
+    std::optional<sequencer::MotorOrder> order;
+    unsigned cleared() const { return order ? cleared_by(table::kind_of(*order)) : 0U; }
+};
+
 /// The state that all properties and assumptions need.
 struct Question {
-    std::vector<ManualTerm> terms;
+    std::vector<QuestionTerm> terms;
     const std::vector<Property>& properties;
     const std::vector<Assumption>& assumptions;
     unsigned named = 0;  ///< bits of HW_INP that properties name
@@ -63,7 +76,7 @@ struct Question {
     /// P_SOLL, P_IST and P_FNC may be cleared in one scan.
     bool clears_all() const {
         unsigned all = 0;
-        for (const ManualTerm& term : terms) all |= term.clears;
+        for (const QuestionTerm& term : terms) all |= term.cleared();
         return all == kAllCleared;
     }
     /// Else the timer is zero or runs.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emit_smt2_fields.h"
+#include "table/step.h"
 #include "verify/emit.h"
 
 namespace nplc::verify {
@@ -19,63 +20,32 @@ using smt2::Field;
 using smt2::Fields;
 using smt2::formula_clause;
 
-/// The temporary command registers (001 §6.1.9) after all terms were executed in one case.
-struct Registers {
-    unsigned next_step = 0;
-    bool wrote = false;
-    unsigned output_byte = 0;
-    unsigned timer_preset = 0;
-    unsigned counter_preset = 0;
-    ManualMotions motion = effect_of(ManualMotion::keeps);
-};
+/// What the orders of a scan make of each motion.
+Motions motions_after(const table::Outcome& outcome) {
+    Motions motions;
+    for (std::size_t before = 0; before < kMotions; ++before)
+        motions[before] = motion_after(static_cast<Motion>(before), {}, outcome.orders);
+    return motions;
+}
 
-/// Orders to the motion, one after the other.
-class MotionOrders {
-  public:
-    void add(const ManualTerm& term, ManualMotions& motion) {
-        const ManualMotions now = motion;
-        if (term.clears == 0) {
-            if (term.motion == ManualMotion::keeps) return;
-            cleared_ = 0;
-        } else {
-            if (cleared_ == 0) before_ = now;
-            cleared_ |= term.clears;
-        }
-        if (cleared_ == kAllCleared) {
-            motion = before_;
-            return;
-        }
-        for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = effect_of(term.motion)[now[i]];
+/// The steps that have terms, or that some term names.
+std::vector<table::Step> steps_of(std::span<const std::uint8_t> table, const Question& question) {
+    std::set<std::uint8_t> numbers = {0};
+    for (const auto& [term, order] : question.terms) {
+        numbers.insert(term.condition.step);
+        if (!term.is_flex && term.fast.next_step != sequencer::kNoSwitch) numbers.insert(term.fast.next_step);
     }
-
-  private:
-    unsigned cleared_ = 0;
-    ManualMotions before_{};
-};
-
-Registers executed(const std::vector<ManualTerm>& terms, unsigned step, bool runs, bool counter_zero,
-                   unsigned image) {
-    Registers registers;
-    registers.next_step = step;
-    MotionOrders orders;
-    for (const ManualTerm& term : terms) {
-        if (term.state != step || ((image ^ term.input) & term.compared) != 0) continue;
-        if ((term.timer_must_be_zero && runs) || (term.counter_must_be_zero && !counter_zero)) continue;
-        orders.add(term, registers.motion);
-        if (term.is_flexmac) continue;
-        registers.wrote = true;
-        registers.output_byte = term.output_byte;
-        if (term.names_next) registers.next_step = term.next_state;
-        if (term.word != 0)
-            (term.word_is_counter ? registers.counter_preset : registers.timer_preset) = term.word;
-    }
-    return registers;
+    const std::vector<sequencer::TermView> terms = table::terms_of(table);
+    std::vector<table::Step> steps;
+    for (const std::uint8_t number : numbers) steps.push_back(table::step_of(number, terms));
+    return steps;
 }
 
 class Clauses {
   public:
-    explicit Clauses(Question question)
+    Clauses(std::span<const std::uint8_t> table, Question question)
         : question_(std::move(question)),
+          steps_(steps_of(table, question_)),
           fields_(question_),
           told_(question_.named | (question_.used & assumed_bits())),
           facts_(facts()) {}
@@ -215,22 +185,17 @@ class Clauses {
         std::string text;
         if (!fields_.tells_motion) return text;
         for (std::size_t order = 0; order < orders_.size(); ++order) {
-            const bool begins = is_manual_timed(orders_[order][0]);
-            for (unsigned all = 0; all < kManualMotions * 4; ++all) {
+            const bool begins = is_timed(orders_[order][0]);
+            for (unsigned all = 0; all < kMotions * 4; ++all) {
                 const unsigned before = all >> 2U;
                 const bool in_pos = (all & 1U) != 0;
                 const bool error = (all & 2U) != 0;
-                unsigned seen = before;
-                const bool ends = before == 1 || before == 3 || before == 8 || before == 9;
-                if (ends && in_pos) {
-                    seen = 4;
-                } else if (error && times_moves() && (before == 1 || before == 8)) {
-                    seen = before == 1 ? 3 : 9;
-                }
-                const std::uint8_t then = orders_[order][seen];
+                const Seen saw{.in_pos = in_pos, .disturbs = error && times_moves()};
+                const Motion seen = motion_after(static_cast<Motion>(before), saw, {});
+                const Motion then = orders_[order][static_cast<std::size_t>(seen)];
                 text += fmt::format("(rule (Turn {} {} {} {} {} {}))\n", bits(before, 4), bit(in_pos),
                                     bit(error), bits(static_cast<unsigned>(order), orders_width()),
-                                    bits(then, 4), bit(is_manual_timed(then) && !begins));
+                                    bits(static_cast<unsigned>(then), 4), bit(is_timed(then) && !begins));
             }
         }
         return text;
@@ -266,8 +231,9 @@ class Clauses {
     std::string facts() {
         const std::vector<Case> cases = cases_of_steps();
         for (const Case& one : cases) {
-            const ManualMotions& motion = executed_in(one).motion;
-            if (std::find(orders_.begin(), orders_.end(), motion) == orders_.end()) orders_.push_back(motion);
+            const Motions motions = motions_after(*one.outcome);
+            if (std::find(orders_.begin(), orders_.end(), motions) == orders_.end())
+                orders_.push_back(motions);
         }
         std::set<std::string> facts;
         for (const Case& one : cases) facts.insert(fact(one));
@@ -277,61 +243,49 @@ class Clauses {
     }
 
     struct Case {
+        const table::Outcome* outcome = nullptr;
         unsigned step = 0;
         bool runs = false;
         bool counter_zero = false;
         unsigned image = 0;
     };
 
-    Registers executed_in(const Case& one) const {
-        return executed(question_.terms, one.step, one.runs, one.counter_zero, one.image);
-    }
-
     std::vector<Case> cases_of_steps() const {
-        std::set<unsigned> steps;
-        for (const ManualTerm& term : question_.terms) {
-            steps.insert(term.state);
-            if (!term.is_flexmac && term.names_next) steps.insert(term.next_state);
-        }
-        steps.insert(0);
         std::vector<Case> cases;
-        for (const unsigned step : steps) {
+        for (const table::Step& step : steps_) {
             for (unsigned image = 0; image < 256; ++image) {
                 if ((image & ~question_.used) != 0) continue;
-                for (unsigned zeros = 0; zeros < 4; ++zeros)
-                    cases.push_back({step, (zeros & 1U) != 0, (zeros & 2U) != 0, image});
+                for (unsigned zeros = 0; zeros < 4; ++zeros) {
+                    const bool runs = (zeros & 1U) != 0;
+                    const unsigned key = image | (runs ? 0U : 0x100U) | (zeros & 2U) << 8U;
+                    cases.push_back({&step.in(key), step.number, runs, (zeros & 2U) != 0, image});
+                }
             }
         }
         return cases;
     }
 
     std::string fact(const Case& one) const {
-        const Registers done = executed_in(one);
-        unsigned operation = 0;
-        unsigned value = 0;
-        if ((done.output_byte & 0x40U) != 0) {
-            operation = 1;
-        } else if (done.counter_preset != 0) {
-            operation = 1;
-            value = done.counter_preset;
-        } else if ((done.output_byte & 0x80U) != 0) {
-            operation = 2;
-        }
-        const bool presets = done.timer_preset != 0;
-        const unsigned left = times_moves() ? done.timer_preset : (presets ? 1U : 0U);
-        const auto found = std::find(orders_.begin(), orders_.end(), done.motion) - orders_.begin();
+        const table::Outcome& done = *one.outcome;
+        const bool counts = done.counter == table::CounterChange::count_down;
+        const unsigned operation = done.sets_counter() ? 1U : counts ? 2U : 0U;
+        const bool presets = done.timer != 0;
+        const unsigned left = times_moves() ? done.timer : (presets ? 1U : 0U);
+        const auto found = std::find(orders_.begin(), orders_.end(), motions_after(done)) - orders_.begin();
         const unsigned orders = fields_.tells_motion ? static_cast<unsigned>(found) : 0;
         return fmt::format("(rule (Scan {} {} {} {} {} {} {} {} {} {} {} {}))\n", bits(one.step, 6),
                            bit(one.runs), bit(one.counter_zero), bits(one.image & told_, 8),
-                           bits(done.next_step, 6), bit(presets), bits(left, fields_.timer.width),
-                           bit(done.wrote), bits(done.output_byte & 0x0FU, 4), bits(operation, 2),
-                           bits(value, fields_.counter.width), bits(orders, orders_width()));
+                           bits(done.next, 6), bit(presets), bits(left, fields_.timer.width),
+                           bit(done.outputs.has_value()), bits(done.outputs.value_or(0), 4),
+                           bits(operation, 2), bits(done.counter_preset, fields_.counter.width),
+                           bits(orders, orders_width()));
     }
 
     Question question_;
+    std::vector<table::Step> steps_;  ///< those that have terms or can be entered
     Fields fields_;
-    unsigned told_;                      ///< bits of HW_INP that a scan's facts tell apart
-    std::vector<ManualMotions> orders_;  ///< what the orders of a scan do to the motion, each once
+    unsigned told_;                ///< bits of HW_INP that a scan's facts tell apart
+    std::vector<Motions> orders_;  ///< what the orders of a scan do to the motion, each once
     std::string facts_;
 };
 
@@ -412,7 +366,7 @@ std::string query_of(const Property& property, const Clauses& clauses) {
 
 Emission smt2_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties,
                  const std::vector<Assumption>& assumptions) {
-    const Clauses clauses(Question(table, properties, assumptions, false));
+    const Clauses clauses(table, Question(table, properties, assumptions, false));
     Emission emission{kClausesHeader, {}};
     for (const Assumption& assumption : assumptions) emission.text += "; " + assumption.text + "\n";
     if (clauses.times_moves()) emission.text += "; Time is counted in milliseconds.\n";

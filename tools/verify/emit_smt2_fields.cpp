@@ -61,8 +61,8 @@ class Conditions {
     }
     std::string moves() const {
         std::string text = "(or";
-        for (std::uint8_t motion = 0; motion < kManualMotions; ++motion) {
-            if (is_manual_moving(motion))
+        for (std::uint8_t motion = 0; motion < kMotions; ++motion) {
+            if (is_moving(static_cast<Motion>(motion)))
                 text += fmt::format(" (= {} {})", name(fields_.motion), bits(motion, fields_.motion.width));
         }
         return text + ")";

@@ -44,36 +44,22 @@ Explorer::Node Explorer::slot_value(const Place& place) const {
     return found == sparse_.end() ? kNone : found->second - 1;
 }
 
-View Explorer::view_after(const Place& place, const Group& group) const {
-    sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
-    sequencer::apply(group.pending, state);
-    const bool moving = is_moving(motion_of(place, group));
-    return {state.step, state.outputs, state.timer == 0, state.counter == 0, moving};
-}
-
 /// After a scan of the group.
 Motion Explorer::motion_of(const Place& place, const Group& group) const {
     if (!machine_.tells_motion()) return Motion::none;
-    return motion_after(place.motion, {group.in_pos, group.disturbs}, group.orders);
+    return motion_after(place.motion, {group.in_pos, group.disturbs}, group.outcome.orders);
 }
 
 bool Explorer::is_idle(const Place& place, const Group& group) const {
-    if (group.sends || motion_of(place, group) != place.motion) return false;
-    sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
-    return !sequencer::apply(group.pending, state);
+    return !group.outcome.sends() && group.outcome.timer == 0 &&
+           landing(place, group).packed() == place.packed();
 }
 
 /// The place right after the scan; the motor as the images' ERROR leaves it, not lost.
 Place Explorer::after(const Place& place, const Group& group) const {
-    sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
-    sequencer::apply(group.pending, state);
-    Place next;
-    next.step = state.step;
-    next.outputs = state.outputs;
-    next.runs = state.timer != 0;
-    next.counter = state.counter;
-    next.motion = motion_of(place, group);
-    if (group.error && !group.resets_error) next.motor = Motor::error;
+    Place next = landing(place, group);
+    next.motor = group.error && !group.resets_error ? Motor::error : Motor::free;
+    next.pending = false;
     return next;
 }
 
@@ -132,9 +118,9 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     Zone now = zone;
     if (part.begins || (place.pending && !part.pending)) now.begin_deadline();
     const bool moves = times_moves_ && is_timed(next.motion);
-    if (times_moves_ && (!moves || begins_move(group.orders))) now.begin_move();
-    if (group.pending.timer_preset != 0 && precision_.times_timer) {
-        const PresetRange times = machine_.times_of(group.pending.timer_preset);
+    if (times_moves_ && (!moves || begins_move(group.outcome.orders))) now.begin_move();
+    if (group.outcome.timer != 0 && precision_.times_timer) {
+        const PresetRange times = machine_.times_of(group.outcome.timer);
         now.preset(times.least, times.most);
     }
     const auto let_pass = [&](Place to) {
@@ -212,7 +198,7 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
         lost.motor = Motor::lost;
         let_pass(lost);
     }
-    if (next.motor == Motor::free && group.sends) {
+    if (next.motor == Motor::free && group.outcome.sends()) {
         Place cut = next;
         cut.motor = Motor::cut;
         let_pass(cut);
@@ -220,33 +206,21 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
 }
 
 /// The same as `after` and `successors` say, for every place at once.
-void Explorer::find_effects() {
+void Explorer::find_next_motors() {
     const bool driver = machine_.assume() == Assume::driver;
     for (const Group& group : machine_.all_groups()) {
-        Effect& effect = effects_.emplace_back();
-        const sequencer::Pending& pending = group.pending;
-        effect.presets = pending.timer_preset != 0;
-        if (pending.has_output) {
-            using Counter = Effect::Counter;
-            const bool clears = (pending.output_byte & 0x40U) != 0;
-            effect.counter_value = clears ? std::uint16_t{0} : pending.counter_preset;
-            if (clears || pending.counter_preset != 0) {
-                effect.counter = Counter::becomes;
-            } else if ((pending.output_byte & 0x80U) != 0) {
-                effect.counter = Counter::counts_down;
-            }
-        }
+        auto& motors = next_motors_.emplace_back();
         for (const Motor motor : {Motor::free, Motor::error, Motor::lost, Motor::cut}) {
             const ImageSet images = group.images & allowed_[static_cast<std::size_t>(motor)];
             if (images.none() || (!driver && motor != Motor::free)) continue;
-            std::uint8_t& next = effect.next[static_cast<std::size_t>(motor)];
+            std::uint8_t& next = motors[static_cast<std::size_t>(motor)];
             const bool shows_error = group.error && !group.resets_error;
             if (!(shows_error && motor == Motor::lost))
                 next |= bit_of(shows_error ? Motor::error : Motor::free);
             const bool may_be_lost = (images & images_of_lost_link()).any();
             if (shows_error && precision_.knows_lost_link && motor != Motor::error && may_be_lost)
                 next |= bit_of(Motor::lost);
-            if (driver && !shows_error && group.sends) next |= bit_of(Motor::cut);
+            if (driver && !shows_error && group.outcome.sends()) next |= bit_of(Motor::cut);
             for (const Motor then : {Motor::free, Motor::error, Motor::lost, Motor::cut}) {
                 if (allowed_[static_cast<std::size_t>(then)].none())
                     next &= static_cast<std::uint8_t>(~bit_of(then));
@@ -365,7 +339,7 @@ void Explorer::explore(const std::vector<Target>& targets) {
     const std::size_t dense = (machine_.greatest_counter() + std::size_t{1}) << bits;
     if (dense <= kMostDense && !machine_.tells_motion())
         dense_.reset(static_cast<Node*>(std::calloc(dense, sizeof(Node))));
-    find_effects();
+    find_next_motors();
     reserve();
     add({}, {}, {});
     if (precision_.guide != nullptr) return explore_guided(targets);
@@ -383,17 +357,13 @@ void Explorer::explore(const std::vector<Target>& targets) {
 
 /// The place after a scan of a group, before any time passes; the motor is unchanged.
 Place Explorer::landing(const Place& here, const Group& group) const {
-    const Effect& effect = effects_[group.number];
-    const sequencer::Pending& pending = group.pending;
+    sequencer::State state{here.step, here.outputs, std::uint16_t{here.runs}, here.counter};
+    group.outcome.apply(state);
     Place to = here;
-    if (pending.next_step != sequencer::kNoSwitch) to.step = pending.next_step;
-    if (pending.has_output) to.outputs = pending.output_byte & 0x0F;
-    if (effect.counter == Effect::Counter::becomes) {
-        to.counter = effect.counter_value;
-    } else if (effect.counter == Effect::Counter::counts_down && here.counter != 0) {
-        to.counter = static_cast<std::uint16_t>(here.counter - 1U);
-    }
-    to.runs = here.runs || effect.presets;
+    to.step = state.step;
+    to.outputs = state.outputs;
+    to.runs = state.timer != 0;
+    to.counter = state.counter;
     to.motion = motion_of(here, group);
     return to;
 }
@@ -403,7 +373,7 @@ void Explorer::visit_plain(Node node, const std::vector<Target>& targets) {
     const auto motor = static_cast<std::size_t>(here.motor);
     for (const Group& group : machine_.groups(here.step, !here.runs, here.counter == 0)) {
         if ((group.images & allowed_[motor]).none()) continue;
-        const std::uint8_t next_motors = effects_[group.number].next[motor];
+        const std::uint8_t next_motors = next_motors_[group.number][motor];
         if (first_uses_[group.number] == kNone && next_motors != 0) first_uses_[group.number] = node;
         Place to = landing(here, group);
         if (!targets.empty()) judge(node, group, view_of(to), targets);

@@ -142,7 +142,7 @@ class Explorer {
     Node first_use(const Group& group) const { return first_uses_[group.number]; }
     /// That scan.
     const Edge& first_edge_with(const Group& group) const;
-    View view_after(const Place& place, const Group& group) const;
+    View view_after(const Place& place, const Group& group) const { return view_of(landing(place, group)); }
     static View view_of(const Place& place) {
         return {place.step, place.outputs, !place.runs, place.counter == 0, is_moving(place.motion)};
     }
@@ -161,7 +161,7 @@ class Explorer {
 
     /// All that decides whether a scan of a group is of a target, below kSurroundings.
     static std::size_t surroundings_of(const Place& here, const Group& group, const View& view) {
-        return (group.pending.has_output ? 0U : here.outputs) | (view.timer_zero ? 16U : 0U) |
+        return (group.outcome.outputs ? 0U : here.outputs) | (view.timer_zero ? 16U : 0U) |
                (view.counter_zero ? 32U : 0U) | (static_cast<unsigned>(here.motor) << 6U) |
                (view.moving ? 256U : 0U);
     }
@@ -207,13 +207,6 @@ class Explorer {
         bool pending = false;
     };
 
-    /// A scan of a group from any place, without times and deadlines.
-    struct Effect {
-        std::array<std::uint8_t, 4> next{};  ///< by what the motor is: what it can be then, a bit each
-        enum class Counter : std::uint8_t { keeps, becomes, counts_down } counter = Counter::keeps;
-        bool presets = false;  ///< the timer
-        std::uint16_t counter_value = 0;
-    };
     /// Images of a view that a target wants.
     struct Wanted {
         std::size_t target = 0;
@@ -232,7 +225,7 @@ class Explorer {
     Bounds delay_of(const Place& place, const Group& group, const Place& next) const;
     bool ends_late(const Zone& zone, const Group& group) const;
     ImageSet narrowed(const ImageSet& images, const Place& next) const;
-    void find_effects();
+    void find_next_motors();
     void reserve();
     /// The limit of work on times is reached: the exploration is incomplete.
     bool is_worn_out();
@@ -297,7 +290,8 @@ class Explorer {
     mutable std::uint64_t work_ = 0;       ///< with zones
     std::vector<std::vector<Node>> open_;  ///< guided: by the length of the shortest course through them
     bool has_all_edges_ = true;
-    std::vector<Effect> effects_;   ///< by group
+    /// By group, and what the motor is: what it can be then, a bit each.
+    std::vector<std::array<std::uint8_t, 4>> next_motors_;
     std::vector<Node> first_uses_;  ///< by group
     std::vector<Hit> hits_;
     Hit missed_;

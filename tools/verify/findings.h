@@ -82,7 +82,4 @@ class Sensitivity {
     std::vector<bool> in_pos_;
 };
 
-/// The group of a row that an image belongs to.
-const Group& group_with(std::span<const Group> row, unsigned image);
-
 }  // namespace nplc::verify

@@ -1,86 +1,36 @@
 #include "verify/machine.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
+
+#include "table/orders.h"
 
 namespace nplc::verify {
 namespace {
 
-using sequencer::MotorOrder;
-using sequencer::Pending;
-using sequencer::TermView;
+using table::Outcome;
 
-constexpr std::size_t kRows = std::size_t{63} * 4;  // steps, timer and counter zero or not
+constexpr std::size_t kSteps = sequencer::kLastStep + 1U;
+constexpr std::size_t kRows = kSteps * 4;  // timer and counter zero or not
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Terms that are true together, and the images with which they are.
-struct ScanResult {
-    Pending pending;
-    std::vector<std::uint16_t> senders;
-    bool error = false;   ///< driver only: what the motor may do next depends on it
-    bool in_pos = false;  ///< it may end a motion
-    bool disturbs = false;
-    bool operator==(const ScanResult&) const = default;
-};
-
-struct Class {
-    ScanResult outcome;
-    ImageSet images;
-};
-
-struct ScanResultHash {
-    std::size_t operator()(const ScanResult& o) const {
-        std::size_t hash = o.pending.next_step | (std::size_t{o.pending.output_byte} << 8U) |
-                           (o.error ? 1U << 16U : 0U) | (o.in_pos ? 1U << 17U : 0U) |
-                           (o.disturbs ? 1U << 18U : 0U);
-        const auto mix = [&hash](std::size_t value) { hash = (hash ^ value) * 0x9E3779B97F4A7C15U; };
-        mix(o.pending.timer_preset);
-        mix(o.pending.counter_preset);
-        for (const std::uint16_t term : o.senders) mix(term);
-        return hash ^ (hash >> 29U);
-    }
-};
-
-/// Command 01h clears the motor's errors and acknowledges a lost link; a write may reach ERR_STAT, with its
-/// register before it too if it is a longword.
-bool may_reset_error(const MotorOrder& order) {
-    constexpr std::uint8_t kResetError = 0x61;
-    constexpr std::uint8_t kErrStat = 35;
-    if (!order.is_register_write) return order.command == kResetError;
-    return order.reg == kErrStat || (order.longword && order.reg == kErrStat - 1);
+/// What a scan does, and only whether it sends.
+std::uint64_t without_orders(const Outcome& outcome) {
+    const unsigned outputs = outcome.outputs ? 0x10U | *outcome.outputs : 0U;
+    const unsigned small = outcome.next | outputs << 8U | static_cast<unsigned>(outcome.counter) << 16U |
+                           (outcome.sends() ? 1U << 24U : 0U);
+    return std::uint64_t{outcome.timer} << 48U | std::uint64_t{outcome.counter_preset} << 32U | small;
 }
 
-/// For which images a term is true, if timer and counter let it.
-ImageSet images_of(TermView term) {
-    ImageSet set = ~ImageSet{};
-    const unsigned compared = (term[2] & 0x7FU) | sequencer::kError;
-    for (unsigned bit = 0; bit < 8; ++bit) {
-        if (((compared >> bit) & 1U) == 0) continue;
-        set &= ((static_cast<unsigned>(term[1]) >> bit) & 1U) != 0 ? images_with_bit(bit)
-                                                                   : ~images_with_bit(bit);
-    }
-    return set;
-}
-
-/// Splits the classes by whether an image is of `set`; `apply` changes the outcome of those that are.
-template <class Apply>
-void split(std::vector<Class>& classes, const ImageSet& set, const Apply& apply) {
-    const std::size_t count = classes.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const ImageSet within = classes[i].images & set;
-        if (within.none()) continue;
-        if (within != classes[i].images) {
-            classes.push_back({classes[i].outcome, classes[i].images & ~set});
-            classes[i].images = within;
-        }
-        apply(classes[i].outcome);
-    }
-}
-
-bool can_be_true(TermView term, unsigned zeros) {
-    const bool timer = (zeros & 1U) != 0 || (term[0] & 0x80U) != 0;
-    const bool counter = (zeros & 2U) != 0 || (term[0] & 0x40U) != 0;
-    return timer && counter;
+/// For each outcome the first that does the same, whatever it sends.
+std::vector<std::size_t> alike(const std::vector<Outcome>& outcomes) {
+    std::unordered_map<std::uint64_t, std::size_t> known;
+    std::vector<std::size_t> result;
+    for (const Outcome& outcome : outcomes)
+        result.push_back(known.try_emplace(without_orders(outcome), result.size()).first->second);
+    return result;
 }
 
 }  // namespace
@@ -93,79 +43,57 @@ Machine::Machine(const sequencer::Table& table, Assume assume, const OrderTime& 
       move_ms_(move_ms),
       ranges_(std::move(ranges)),
       group_with_(kRows) {
-    std::array<std::vector<std::uint16_t>, sequencer::kLastStep + 1> terms;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        const TermView term = table.term(i);
-        const std::uint8_t step = sequencer::step_of(term);
-        terms[step].push_back(static_cast<std::uint16_t>(i));
-        steps_with_terms_ |= std::uint64_t{1} << step;
-        cared_bits_ = static_cast<std::uint8_t>(cared_bits_ | (term[2] & 0x7F));
-        if (sequencer::is_flex(term)) continue;
-        Pending pending;
-        pending.fold(term);
-        greatest_counter_ = std::max(greatest_counter_, pending.counter_preset);
-        if ((pending.output_byte & 0x80U) != 0) steps_that_count_ |= std::uint64_t{1} << step;
-    }
-    for (const auto& own : terms) {
-        for (unsigned zeros = 0; zeros < 4; ++zeros) fill_row(table, own, zeros, order_time);
+    std::vector<sequencer::TermView> terms;
+    for (std::size_t i = 0; i < table.size(); ++i) terms.push_back(table.term(i));
+    for (std::uint8_t number = 0; number < kSteps; ++number) {
+        const table::Step step = table::step_of(number, terms);
+        const std::uint64_t bit = std::uint64_t{1} << number;
+        if (step.terms != 0) steps_with_terms_ |= bit;
+        cared_bits_ = static_cast<std::uint8_t>(cared_bits_ | step.compared);
+        for (const Outcome& outcome : step.outcomes) {
+            greatest_counter_ = std::max(greatest_counter_, outcome.counter_preset);
+            if (outcome.counter == table::CounterChange::count_down) steps_that_count_ |= bit;
+        }
+        std::vector<std::size_t> kinds = alike(step.outcomes);
+        if (assume == Assume::driver || tells_motion_) std::iota(kinds.begin(), kinds.end(), std::size_t{0});
+        for (unsigned zeros = 0; zeros < 4; ++zeros) fill_row(step, kinds, zeros, order_time);
     }
     first_.push_back(groups_.size());
 }
 
-void Machine::fill_row(const sequencer::Table& table, const std::vector<std::uint16_t>& terms, unsigned zeros,
+void Machine::fill_row(const table::Step& step, const std::vector<std::size_t>& kinds, unsigned zeros,
                        const OrderTime& order_time) {
-    const bool driver = assume_ == Assume::driver;
-    std::vector<Class> classes(1);
-    classes[0].images.set();
-    if (driver) {
-        split(classes, images_with_bit(7), [](ScanResult& outcome) { outcome.error = true; });
-    }
-    if (tells_motion_) {
-        split(classes, images_with_bit(6), [](ScanResult& outcome) { outcome.in_pos = true; });
-    }
-    if (move_ms_ != 0) {
-        split(classes, images_with_bit(7), [](ScanResult& outcome) { outcome.disturbs = true; });
-    }
-    for (const std::uint16_t index : terms) {
-        const TermView term = table.term(index);
-        if (!can_be_true(term, zeros)) continue;
-        split(classes, images_of(term), [&](ScanResult& outcome) {
-            if (!sequencer::is_flex(term)) outcome.pending.fold(term);
-            if (sequencer::has_order(term)) outcome.senders.push_back(index);
-        });
-    }
-    std::sort(classes.begin(), classes.end(),
-              [](const Class& a, const Class& b) { return a.images._Find_first() < b.images._Find_first(); });
+    const bool tells_error = assume_ == Assume::driver || move_ms_ != 0;
+    const unsigned told =
+        (tells_error ? unsigned{sequencer::kError} : 0U) | (tells_motion_ ? unsigned{sequencer::kInPos} : 0U);
+    auto& group_with = group_with_[first_.size()];
     first_.push_back(groups_.size());
-    auto& group_with = group_with_[first_.size() - 1];
-    std::unordered_map<ScanResult, std::uint32_t, ScanResultHash> known;
-    for (Class& one : classes) {
-        const std::vector<std::uint16_t> senders = one.outcome.senders;
-        if (!driver && !tells_motion_ && !senders.empty()) one.outcome.senders = {0};
-        const auto [found, is_new] =
-            known.try_emplace(std::move(one.outcome), static_cast<std::uint32_t>(groups_.size()));
-        if (is_new) add_group(table, found->first.pending, senders, order_time);
-        Group& group = groups_[found->second];
-        group.error = found->first.error;
-        group.in_pos = found->first.in_pos;
-        group.disturbs = found->first.disturbs;
-        group.images |= one.images;
-        for (std::size_t image = one.images._Find_first(); image < 256; image = one.images._Find_next(image))
-            group_with[image] = static_cast<std::uint16_t>(found->second);
+    std::vector<std::array<std::uint32_t, 4>> known(step.outcomes.size(), {kNone, kNone, kNone, kNone});
+    for (unsigned image = 0; image < 256; ++image) {
+        const std::size_t number = step.of_case[zeros << 8U | image];
+        std::uint32_t& group = known[kinds[number]][(image & told) >> 6U];
+        if (group == kNone) {
+            group = static_cast<std::uint32_t>(groups_.size());
+            add_group(step.outcomes[number], image & told, order_time);
+        }
+        groups_[group].images.set(image);
+        group_with[image] = static_cast<std::uint16_t>(group);
     }
 }
 
-void Machine::add_group(const sequencer::Table& table, const Pending& pending,
-                        const std::vector<std::uint16_t>& senders, const OrderTime& order_time) {
-    Group group;
-    group.number = static_cast<std::uint32_t>(groups_.size());
-    group.pending = pending;
-    group.sends = !senders.empty();
-    for (const std::uint16_t index : senders) group.orders.push_back(sequencer::order_of(table.term(index)));
-    group.resets_error = std::any_of(group.orders.begin(), group.orders.end(), may_reset_error);
+/// `told`: ERROR and INPOS of its images, as far as they are told apart.
+void Machine::add_group(const Outcome& outcome, unsigned told, const OrderTime& order_time) {
+    const bool driver = assume_ == Assume::driver;
+    const bool error = (told & sequencer::kError) != 0;
+    Group& group = groups_.emplace_back();
+    group.number = static_cast<std::uint32_t>(groups_.size() - 1);
+    group.outcome = outcome;
+    group.error = driver && error;
+    group.in_pos = (told & sequencer::kInPos) != 0;
+    group.disturbs = move_ms_ != 0 && error;
+    group.resets_error = std::any_of(outcome.orders.begin(), outcome.orders.end(), table::may_reset_error);
     group.delay = {0, kMostIdle, 0};
-    if (group.sends && assume_ == Assume::driver) group.delay = order_time(group.orders);
-    groups_.push_back(std::move(group));
+    if (outcome.sends() && driver) group.delay = order_time(outcome.orders);
 }
 
 }  // namespace nplc::verify

@@ -4,32 +4,10 @@
 #include <cstdint>
 #include <span>
 
-#include "sequencer/state.h"
+#include "table/orders.h"
 
-/// The meaning of a table's commands for a motor (001 §5.2.1.4).
+/// What a motor is doing by what it was ordered.
 namespace nplc::verify {
-
-enum class OrderKind : std::uint8_t {
-    nothing,      ///< neither mode nor motion
-    init,         ///< INIT mode, whatever it selects
-    velocity,     ///< runs continuously
-    place,        ///< moves to a position
-    holds_place,  ///< position mode, the target stays
-    home,
-    stop,    ///< V_SOLL = 0
-    speed,   ///< V_SOLL is nonzero again, the mode stays
-    set,     ///< USE_SET
-    silent,  ///< a mode that never sets IN_POS
-    reset_error,
-};
-
-OrderKind kind_of(const sequencer::MotorOrder& order);
-/// The register that V_SOLL is taken from with this order, V1..V8; 0 if V_SOLL stays, or is written itself.
-std::uint8_t velocity_taken(const sequencer::MotorOrder& order);
-/// The register that a command selects, 1..127; 0 for others.
-std::uint8_t selected_register(const sequencer::MotorOrder& order);
-bool begins_motion(OrderKind kind);
-bool ends_motion(OrderKind kind);
 
 /// What the motor was ordered to do, as far as it decides whether it may move: `moving` in properties. In
 /// velocity, gear and position modes V_SOLL = 0 ends a motion, which goes on when V_SOLL is something again;
@@ -48,6 +26,7 @@ enum class Motion : std::uint8_t {
     homing_disturbed,
     driven,  ///< in a torque or test mode
 };
+inline constexpr std::size_t kMotions = 11;
 constexpr bool is_moving(Motion motion) {
     return motion == Motion::to_place || motion == Motion::endless || motion == Motion::disturbed ||
            motion == Motion::homing || motion == Motion::homing_disturbed || motion == Motion::driven;
@@ -61,8 +40,19 @@ struct Seen {
     bool in_pos = false;
     bool disturbs = false;  ///< ERROR, where it counts how long moves last
 };
+/// P_SOLL, P_IST and P_FNC as bits, where a command clears them: all three in one scan, with no other order
+/// to the motion between, move nothing.
+inline constexpr unsigned kAllCleared = 7;
+unsigned cleared_by(table::OrderKind kind);
+
+/// After one order, what clears all three left out.
+Motion motion_after(Motion before, const sequencer::MotorOrder& order);
 /// After a scan that saw this and gave these orders.
 Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::MotorOrder> orders);
+
+/// An order begins a motion, or ends one.
+bool begins_motion(const sequencer::MotorOrder& order);
+bool ends_motion(const sequencer::MotorOrder& order);
 
 /// They begin a move to a place or a homing, and nothing after it ends it.
 bool begins_move(std::span<const sequencer::MotorOrder> orders);

@@ -23,11 +23,9 @@ std::optional<std::vector<ChosenPreset>> counts_in(const Machine& machine,
     std::vector<ChosenPreset> counts;
     std::vector<PresetRange> met;
     for (const CourseScan& scan : scans) {
-        const sequencer::Pending& pending = scan.group->pending;
-        const bool clears = (pending.output_byte & 0x40U) != 0;
-        const bool presets = pending.counter_preset != 0 && !clears;
-        const std::uint16_t counter = presets ? pending.counter_preset : scan.place.counter;
-        const PresetRange* const range = clears ? nullptr : machine.counts_of(counter);
+        const table::Outcome& outcome = scan.group->outcome;
+        const std::uint16_t counter = outcome.sets_counter() ? outcome.counter_preset : scan.place.counter;
+        const PresetRange* const range = machine.counts_of(counter);
         if (range == nullptr) continue;
         met.push_back(*range);
         if (scan.counter != counter && !add(counts, {counter, scan.counter})) return std::nullopt;
@@ -45,7 +43,7 @@ std::vector<PresetRange> times_in(const Machine& machine, std::span<const Course
     std::vector<PresetRange> times;
     for (const PresetRange& range : machine.ranges().timer) {
         const bool is_met = std::any_of(scans.begin(), scans.end(), [&](const CourseScan& scan) {
-            return scan.group->pending.timer_preset == range.value;
+            return scan.group->outcome.timer == range.value;
         });
         if (is_met) times.push_back(range);
     }
@@ -84,11 +82,8 @@ std::vector<std::uint8_t> bytes_with(const sequencer::Table& table, std::span<co
         const sequencer::TermView term = table.term(i);
         bytes.insert(bytes.end(), term.begin(), term.end());
         if (sequencer::is_flex(term)) continue;
-        std::uint8_t* const preset = &bytes[bytes.size() - 2];
-        const std::uint16_t value =
-            chosen_value(chosen, static_cast<std::uint16_t>(term[6] | (term[7] << 8U)));
-        preset[0] = static_cast<std::uint8_t>(value);
-        preset[1] = static_cast<std::uint8_t>(value >> 8U);
+        table::set_preset(std::span(bytes).last<sequencer::kTermBytes>(),
+                          chosen_value(chosen, sequencer::decode(term).fast.preset));
     }
     bytes.push_back(sequencer::kEndOfTable);
     bytes.resize(bytes.size() + sequencer::kTermBytes - 1);

@@ -179,8 +179,8 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced,
         if (paced && runs_on && scans[k].idle)
             times.at_most(preset_at, k + 1, preset - 1 + Machine::kMostIdle,
                           {Cause::Kind::timer_runs, preset_at, k});
-        if (scans[k].group->pending.timer_preset == 0) continue;
-        preset = chosen_value(presets, scans[k].group->pending.timer_preset);
+        if (scans[k].group->outcome.timer == 0) continue;
+        preset = chosen_value(presets, scans[k].group->outcome.timer);
         preset_at = k;
     }
 }
@@ -196,7 +196,7 @@ void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t 
             times.at_most(ordered, k, move_ms, cause);
             if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle, cause);
         }
-        if (begins_move(group.orders)) ordered = k;
+        if (begins_move(group.outcome.orders)) ordered = k;
     }
 }
 

@@ -157,12 +157,12 @@ class Search {
         const ImageSet hits = images & target_.images(view);
         ImageSet other = images & ~hits;
         if (target_.from != nullptr) other &= images_where(*target_.from, view);
-        const PresetRange times = ways_.machine().times_of(group.pending.timer_preset);
+        const PresetRange times = ways_.machine().times_of(group.outcome.timer);
         kinds_.push_back({.levels = levels_of(images, lost),
                           .hits = levels_of(hits, lost),
                           .wanted = levels_of(other, lost),
                           .error = group.error,
-                          .sends = group.sends,
+                          .sends = group.outcome.sends(),
                           .least = group.delay.least,
                           .preset = times.least,
                           .preset_most = times.most});

@@ -80,9 +80,12 @@ Property unfulfilled(Property property) {
 /// The steps that the table has, or can go to.
 std::uint64_t steps_of(const Machine& machine) {
     std::uint64_t steps = machine.steps_with_terms() | 1U;
-    for (const Group& group : machine.all_groups()) {
-        if (group.pending.next_step != sequencer::kNoSwitch)
-            steps |= std::uint64_t{1} << group.pending.next_step;
+    for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
+        if (((machine.steps_with_terms() >> step) & 1U) == 0) continue;
+        for (unsigned zeros = 0; zeros < 4; ++zeros) {
+            for (const Group& group : machine.groups(step, (zeros & 1U) != 0, (zeros & 2U) != 0))
+                steps |= std::uint64_t{1} << group.outcome.next;
+        }
     }
     return steps;
 }

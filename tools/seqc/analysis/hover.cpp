@@ -57,7 +57,7 @@ std::string step_text(const Program& program, std::string_view name) {
     constexpr std::size_t kShown = 24;
     for (std::size_t i = 0; i < compiled.origins.size(); ++i) {
         const sequencer::TermView bytes = term_at(compiled, i);
-        if (sequencer::is_end(bytes) || bytes[0] % 64 != *number) continue;
+        if (sequencer::is_end(bytes) || sequencer::step_of(bytes) != *number) continue;
         if (++count <= kShown)
             terms += fmt::format("{:4}  {} {}\n", i, hex(bytes), describe(bytes, &compiled.symbols));
     }
@@ -119,7 +119,7 @@ void add_step_hints(const Program& program, const ast::Step& step, std::vector<H
     std::size_t terms = 0;
     for (std::size_t i = 0; i < compiled.origins.size(); ++i) {
         const sequencer::TermView bytes = term_at(compiled, i);
-        if (number && !sequencer::is_end(bytes) && bytes[0] % 64 == *number) ++terms;
+        if (number && !sequencer::is_end(bytes) && sequencer::step_of(bytes) == *number) ++terms;
     }
     hints.push_back(
         {end_of(step.name.span), " " + count_text(terms), "of step " + std::to_string(number.value_or(0))});

@@ -12,6 +12,7 @@
 #include "seqc/symbol_file.h"
 #include "sequencer/table.h"
 #include "sequencer/term.h"
+#include "table/step.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
@@ -38,14 +39,6 @@ void compile_into(Input& input, const std::string& text) {
     input.program = std::move(compilation);
 }
 
-/// Number of bytes up to and including the end term; empty if there is none.
-std::size_t table_length(std::span<const std::uint8_t> bytes) {
-    for (std::size_t at = 0; at + kTermBytes <= bytes.size(); at += kTermBytes) {
-        if (sequencer::is_end(bytes.subspan(at).first<kTermBytes>())) return at + kTermBytes;
-    }
-    return 0;
-}
-
 void read_table_into(Input& input, const std::string& text, bool is_whole) {
     intel_hex::Image image = intel_hex::bytes_in(input.file, text);
     if (!image.error.empty()) {
@@ -55,7 +48,7 @@ void read_table_into(Input& input, const std::string& text, bool is_whole) {
         return;
     }
     std::vector<std::uint8_t> bytes = std::move(image.bytes);
-    const std::size_t length = table_length(bytes);
+    const std::size_t length = table::length_of(bytes);
     if (length == 0) {
         input.exit_code = file_problem(fmt::format(
             "{}: {} bytes hold {} whole terms, and none has STATE 63: this is no sequence table, or "

@@ -9,6 +9,7 @@
 #include "sequencer/table.h"
 #include "sequencer/term.h"
 #include "set_points/values.h"
+#include "table/step.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -67,8 +68,7 @@ class AllValues {
     bool find_marks() {
         std::set<std::int32_t> used;
         std::int32_t greatest = 0;
-        for (std::size_t at = 0; at + sequencer::kTermBytes <= table_.size(); at += sequencer::kTermBytes) {
-            const sequencer::TermView bytes(&table_[at], sequencer::kTermBytes);
+        for (const sequencer::TermView bytes : table::terms_of(table_)) {
             const sequencer::Term term = sequencer::decode(bytes);
             if (term.is_flex) continue;
             used.insert(term.fast.preset);
@@ -270,9 +270,8 @@ class AllValues {
         std::vector<std::uint8_t> bytes = table_;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             for (const std::uint16_t place : points_[i].places) {
-                const std::size_t at = place * sequencer::kTermBytes + 6;
-                bytes[at] = static_cast<std::uint8_t>(values[i]);
-                bytes[at + 1] = static_cast<std::uint8_t>(values[i] >> 8);
+                const std::span<std::uint8_t> term = std::span(bytes).subspan(place * sequencer::kTermBytes);
+                table::set_preset(term.first<sequencer::kTermBytes>(), static_cast<std::uint16_t>(values[i]));
             }
         }
         const auto loaded = sequencer::Table::load(bytes);

@@ -12,6 +12,7 @@
 #include "host/paths.h"
 #include "seqc/format.h"
 #include "sequencer/term.h"
+#include "table/step.h"
 
 namespace nplc::seqc {
 namespace {
@@ -265,19 +266,10 @@ class Decompiler {
     Decompilation result_;
 };
 
-/// Length up to and including the end term; 0: there is none.
-std::size_t length_of(std::span<const std::uint8_t> bytes) {
-    for (std::size_t at = 0; at + sequencer::kTermBytes <= bytes.size(); at += sequencer::kTermBytes) {
-        if (sequencer::is_end(bytes.subspan(at).first<sequencer::kTermBytes>()))
-            return at + sequencer::kTermBytes;
-    }
-    return 0;
-}
-
 }  // namespace
 
 Decompilation decompile(std::span<const std::uint8_t> table, const DecompileOptions& options) {
-    const std::size_t length = length_of(table);
+    const std::size_t length = table::length_of(table);
     if (length == 0) {
         Decompilation result;
         result.error = disassemble(table, options.origin).error;

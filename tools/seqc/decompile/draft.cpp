@@ -13,8 +13,10 @@ using sequencer::TermBytes;
 constexpr std::ptrdiff_t kEnoughForOnError = 2;  // steps
 const Action kNoAction{};
 
-bool switches(const TermBytes& term) {
-    return !sequencer::is_flex(term) && (term[3] & 0x3F) < sequencer::kLastStep;
+/// The step that a term switches to.
+std::optional<std::uint8_t> switches_to(const sequencer::Term& term) {
+    const bool switches = !term.is_flex && term.fast.next_step < sequencer::kLastStep;
+    return switches ? std::optional(term.fast.next_step) : std::nullopt;
 }
 
 /// The common end of all of the actions.
@@ -60,11 +62,12 @@ std::vector<std::uint8_t> Drafter::voted_outputs() const {
     std::array<int, kSteps> own{};
     own.fill(-1);
     const auto count = [&](const Terms& terms) {
-        for (const TermBytes& term : terms) {
-            if (sequencer::is_flex(term)) continue;
-            const std::uint8_t from = sequencer::step_of(term);
-            const std::size_t to = switches(term) ? term[3] & 0x3FU : from;
-            const std::uint8_t outputs = term[5] & 0x0F;
+        for (const TermBytes& bytes : terms) {
+            const sequencer::Term term = sequencer::decode(bytes);
+            if (term.is_flex) continue;
+            const std::uint8_t from = term.condition.step;
+            const std::size_t to = switches_to(term).value_or(from);
+            const std::uint8_t outputs = term.fast.outputs;
             if (to != from) {
                 ++votes[to][outputs];
             } else {
@@ -162,7 +165,7 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
     // A TERM states all of its effects.
     const auto add_terms = [&](const Terms& terms, std::size_t first) {
         for (std::size_t i = first; i < terms.size(); ++i) {
-            if (switches(terms[i]) && (terms[i][3] & 0x3F) == step) ways.push_back(&kNoAction);
+            if (switches_to(sequencer::decode(terms[i])) == step) ways.push_back(&kNoAction);
         }
     };
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
@@ -212,9 +215,9 @@ void Drafter::take_entry_from_values(Draft& draft) const {
 /// OUT is not written if terms disagree about it and no branch uses it.
 void Drafter::note_outputs(Draft& draft) const {
     const auto agree = [&](const Terms& terms, std::uint8_t step) {
-        return std::all_of(terms.begin(), terms.end(), [&](const TermBytes& term) {
-            return !switches(term) || (term[3] & 0x3F) != step ||
-                   (term[5] & 0x0F) == draft.around.outputs[step];
+        return std::all_of(terms.begin(), terms.end(), [&](const TermBytes& bytes) {
+            const sequencer::Term term = sequencer::decode(bytes);
+            return switches_to(term) != step || term.fast.outputs == draft.around.outputs[step];
         });
     };
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "decompile/vocabulary.h"
 #include "lowering/effects.h"
+#include "table/step.h"
 
 namespace nplc::seqc {
 namespace {
@@ -14,7 +15,7 @@ using sequencer::Term;
 using sequencer::TermBytes;
 
 bool same_condition(const TermBytes& a, const TermBytes& b) {
-    return a[0] == b[0] && a[1] == b[1] && ((a[2] ^ b[2]) & 0x7F) == 0;
+    return sequencer::decode(a).condition == sequencer::decode(b).condition;
 }
 
 void add_fast(const FastStatement& fast, Group& group) {
@@ -31,7 +32,7 @@ void add_fast(const FastStatement& fast, Group& group) {
 Group group_of(std::span<const TermBytes> terms, registers::Model model) {
     Group group;
     group.count = terms.size();
-    group.when = cases_of(terms.front());
+    group.when = table::cases_of(terms.front());
     for (const TermBytes& bytes : terms) {
         const Term term = sequencer::decode(bytes);
         if (term.is_flex || term.fast.sends) group.action.sends.push_back(send_of(term, model));
@@ -50,22 +51,13 @@ Group group_of(std::span<const TermBytes> terms, registers::Model model) {
 
 }  // namespace
 
-Truth cases_of(sequencer::TermView term) {
-    const sequencer::Condition condition = sequencer::decode(term).condition;
-    const unsigned zeros = (condition.needs_timer_zero ? 1U << kTimerZero : 0U) |
-                           (condition.needs_counter_zero ? 1U << kCounterZero : 0U);
-    const unsigned care = condition.care | 1U << kErrorBit | zeros;
-    return truth_of(Product{static_cast<std::uint16_t>((condition.input | zeros) & care),
-                            static_cast<std::uint16_t>(care)});
-}
-
 std::vector<Group> groups_of(const Terms& terms, registers::Model model) {
     std::vector<Group> groups;
     std::size_t at = 0;
     while (at < terms.size()) {
         Group group;
         group.count = 1;
-        group.when = cases_of(terms[at]);
+        group.when = table::cases_of(terms[at]);
         // The compiler's terms for the beginning of an action are the beginning of its terms.
         for (std::size_t count = 1; at + count <= terms.size(); ++count) {
             const TermBytes& last = terms[at + count - 1];

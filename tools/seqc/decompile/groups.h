@@ -25,7 +25,4 @@ struct Group {
 
 std::vector<Group> groups_of(const Terms& terms, registers::Model model);
 
-/// The cases in which a term is true.
-Truth cases_of(sequencer::TermView term);
-
 }  // namespace nplc::seqc

@@ -5,6 +5,7 @@
 #include <bitset>
 
 #include "decompile/vocabulary.h"
+#include "table/step.h"
 
 namespace nplc::seqc {
 namespace {
@@ -15,20 +16,12 @@ using sequencer::TermBytes;
 
 using StepSet = std::bitset<64>;
 
-std::vector<TermBytes> terms_of(std::span<const std::uint8_t> table) {
-    std::vector<TermBytes> terms;
-    for (std::size_t at = 0; at + kTermBytes <= table.size(); at += kTermBytes) {
-        TermBytes& term = terms.emplace_back();
-        std::copy_n(table.begin() + static_cast<std::ptrdiff_t>(at), kTermBytes, term.begin());
-    }
-    return terms;
-}
-
 StepSet named_steps(const Terms& terms) {
     StepSet named;
-    for (const TermBytes& term : terms) {
-        named.set(sequencer::step_of(term));
-        if (!sequencer::is_flex(term)) named.set(term[3] & 0x3F);
+    for (const TermBytes& bytes : terms) {
+        const sequencer::Term term = sequencer::decode(bytes);
+        named.set(term.condition.step);
+        if (!term.is_flex) named.set(term.fast.next_step);
     }
     named.reset(kLastStep);
     named.reset(sequencer::kEndOfTable);
@@ -47,9 +40,10 @@ void insert_empty(std::vector<Part>& steps, std::uint8_t number) {
 
 Layout layout_of(std::span<const std::uint8_t> table) {
     Layout layout;
-    Terms terms = terms_of(table);
-    layout.end = terms.back();
-    terms.pop_back();
+    Terms terms;
+    for (const sequencer::TermView term : table::terms_of(table))
+        std::copy_n(term.begin(), kTermBytes, terms.emplace_back().begin());
+    std::copy_n(table.last<kTermBytes>().begin(), kTermBytes, layout.end.begin());
     StepSet missing = named_steps(terms);
     for (const TermBytes& term : terms) {
         const std::uint8_t number = sequencer::step_of(term);

@@ -10,6 +10,7 @@
 #include "semantics/commands.h"
 #include "semantics/scope.h"
 #include "syntax/parser.h"
+#include "table/step.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
@@ -76,7 +77,7 @@ Line write_line(const Send& send, const WriterContext& context) {
 }
 
 std::string condition_text(const sequencer::TermBytes& bytes, const WriterContext& context) {
-    const Truth cases = cases_of(bytes);
+    const Truth cases = table::cases_of(bytes);
     return formula_of(cases, cases, context.naming.bits).text;
 }
 

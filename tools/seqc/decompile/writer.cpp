@@ -89,11 +89,14 @@ class Writer {
 
     void write_signals() {
         const auto cares = [&](std::size_t bit) {
-            return any_term([&](const TermBytes& term) { return ((term[2] >> bit) & 1) != 0; });
+            return any_term([&](const TermBytes& term) {
+                return ((sequencer::decode(term).condition.care >> bit) & 1) != 0;
+            });
         };
         const auto writes = [&](std::size_t bit) {
-            return any_term([&](const TermBytes& term) {
-                return !sequencer::is_flex(term) && ((term[5] >> bit) & 1) != 0;
+            return any_term([&](const TermBytes& bytes) {
+                const sequencer::Term term = sequencer::decode(bytes);
+                return !term.is_flex && ((term.fast.outputs >> bit) & 1) != 0;
             });
         };
         write_block("VAR_INPUT", names().inputs, context_.naming.declared_inputs, "IN", cares);

@@ -17,7 +17,8 @@ std::vector<LoweredTerm> shortened(const StepPlan& step, const std::vector<std::
     std::vector<LoweredTerm> result(plain.begin(), plain.begin() + static_cast<std::ptrdiff_t>(made));
     for (const ReducedStep& half : halves_of(step, outputs_of)) {
         const auto in_half = [&](const LoweredTerm& term) {
-            return ((term.bytes[1] & sequencer::kError) != 0) == half.error;
+            const sequencer::Condition condition = sequencer::decode(term.bytes).condition;
+            return ((condition.input & sequencer::kError) != 0) == half.error;
         };
         const auto count = std::count_if(result.begin(), result.end(), in_half);
         const std::vector<LoweredTerm> better = shorten(half, static_cast<std::size_t>(count));

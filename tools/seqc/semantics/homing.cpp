@@ -1,21 +1,17 @@
 #include <fmt/format.h>
 
-#include "protocol/fastmac.h"
 #include "registers/details.h"
 #include "semantics/checker.h"
-#include "semantics/commands.h"
+#include "semantics/orders.h"
 
 namespace nplc::seqc {
 namespace {
-
-using protocol::fastmac::Number;
 
 constexpr std::string_view kWhatToWrite =
     "write HOME_MODE := BY_COMMAND = HOME1_MODE; (against a stop; HOME2_MODE and HOME3_MODE take a sensor)";
 
 bool is_home(const Send& send) {
-    return send.reg == nullptr && !select_command(send.command) &&
-           static_cast<Number>(send.command & 0x1F) == Number::home;
+    return send.reg == nullptr && kind_of(send) == OrderKind::home;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/guards.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 #include "semantics/units.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
 
 /// The values that a register may have: a set-point's range, or one.
 struct Values {
@@ -111,7 +111,7 @@ class PlaceWalk {
     void apply(PlaceState& state, const Send& send) const {
         if (send.reg != nullptr) return apply_write(state, send);
         const auto select = select_command(send.command);
-        if (!select) return apply_number(state, static_cast<Number>(send.command & 0x1F));
+        if (!select) return apply_number(state, kind_of(send));
         if (select->selection.group == Group::v) state.velocity = {select->selection.index};
         const bool to_place = select->mode == Mode::position && select->selection.group == Group::p;
         if (select->mode == Mode::position && !to_place) return;  // POSITION(V1) selects a velocity
@@ -209,28 +209,13 @@ class PlaceWalk {
             state.lose();
     }
 
-    static void apply_number(PlaceState& state, Number number) {
-        switch (number) {
-            case Number::nop:
-            case Number::reset_error:
-                return;
-            case Number::positions_absolute:
-                state.relative = false;
-                return;
-            case Number::positions_relative_p_soll:
-            case Number::positions_relative_p_fnc:
-                state.relative = true;
-                break;
-            case Number::clear_v_soll:
-            case Number::use_set_1:
-            case Number::use_set_2:
-            case Number::use_set_3:
-            case Number::use_set_4:
-                state.velocity = {0};
-                break;
-            default:
-                break;
-        }
+    /// A command that selects nothing.
+    static void apply_number(PlaceState& state, OrderKind kind) {
+        if (kind == OrderKind::nothing || kind == OrderKind::reset_error) return;
+        if (kind == OrderKind::absolute || kind == OrderKind::relative)
+            state.relative = kind == OrderKind::relative;
+        if (kind == OrderKind::absolute) return;
+        if (kind == OrderKind::stop || kind == OrderKind::set) state.velocity = {0};
         state.lose();
     }
 

@@ -12,8 +12,6 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Number;
-
 /// What the motor may be doing.
 enum MotionBit : std::uint8_t {
     kMayInit = 1,
@@ -24,11 +22,6 @@ enum MotionBit : std::uint8_t {
     kMayHoming = 32,
     kMayDriven = 64,  ///< a torque mode
 };
-
-bool clears_register(const Send& send, Number number) {
-    return send.reg == nullptr && !select_command(send.command) &&
-           static_cast<Number>(send.command & 0x1F) == number;
-}
 
 struct LastingMotion {
     std::uint8_t may_be = 0;
@@ -112,11 +105,11 @@ class LastingMotionWalk {
         });
     }
     static bool clears_all(const Rule& rule) {
-        const auto has = [&](Number number) {
+        const auto has = [&](OrderKind kind) {
             return std::any_of(rule.action.sends.begin(), rule.action.sends.end(),
-                               [&](const Send& send) { return clears_register(send, number); });
+                               [&](const Send& send) { return kind_of(send) == kind; });
         };
-        return has(Number::clear_p_ist) && has(Number::clear_p_soll) && has(Number::clear_p_fnc);
+        return has(OrderKind::clears_p_ist) && has(OrderKind::clears_p_soll) && has(OrderKind::clears_p_fnc);
     }
 
     void judge_send(const Rule& rule, const Send& send, const LastingMotion& state) {
@@ -128,8 +121,8 @@ class LastingMotionWalk {
                  fmt::format("'{}' does not end {}: the motor goes on", statement_text(source_, send.span),
                              homing ? "a homing" : "a torque mode"),
                  "send INIT, as in INIT(V1);, or MODE_REG := 0;", state.unstoppable, "it begins here");
-        } else if (effect == MotionEffect::target && (state.may_be & (kMayInPlace | kMayToPlace)) != 0 &&
-                   !clears_all(rule)) {
+        } else if (effect == MotionEffect::target && send.reg == nullptr &&
+                   (state.may_be & (kMayInPlace | kMayToPlace)) != 0 && !clears_all(rule)) {
             warn("W051", send, rule,
                  fmt::format("in position mode '{}' is another target: the motor moves there",
                              statement_text(source_, send.span)),

@@ -9,13 +9,13 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 
 namespace nplc::seqc {
 namespace {
 
 using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
 /// V, A and T: the parameters of a move besides its position.
@@ -31,21 +31,16 @@ struct Selected {
 };
 
 bool selects_place(const Send& send) {
-    const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
-    return select && select->mode == Mode::position && select->selection.group == Group::p;
+    return send.reg == nullptr && kind_of(send) == OrderKind::place;
 }
 
 /// MOVE_P7_BY_P_SOLL and its like.
 bool moves_by(const Send& send) {
-    if (send.reg != nullptr || select_command(send.command)) return false;
-    const auto number = static_cast<Number>(send.command & 0x1F);
-    return number == Number::move_p7_by_p_fnc || number == Number::move_p8_by_p_fnc ||
-           number == Number::move_p7_by_p_soll || number == Number::move_p8_by_p_soll;
+    return kind_of(send) == OrderKind::moves_by;
 }
 
 bool runs(const Send& send) {
-    const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
-    return select && select->mode == Mode::velocity;
+    return send.reg == nullptr && kind_of(send) == OrderKind::run;
 }
 
 std::optional<Group> group_written(const Send& send) {
@@ -100,8 +95,7 @@ class SelectionWalk {
     void apply(SelectionState& state, const Send& send) const {
         const auto written = group_written(send);
         const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
-        const auto number = static_cast<Number>(send.command & 0x1F);
-        const bool stops = send.reg == nullptr && !select && number == Number::clear_v_soll;
+        const bool stops = send.reg == nullptr && kind_of(send) == OrderKind::stop;
         for (std::size_t i = 0; i < kGroups.size(); ++i) {
             if (written == kGroups[i]) state.selected[i] = {{0, send.value, moves_, send.span}};
             if (select && select->selection.group == kGroups[i])
@@ -125,11 +119,7 @@ class SelectionWalk {
         return static_cast<std::uint8_t>((send.command & 0x1F) -
                                          static_cast<std::uint8_t>(Number::use_set_1) + 1);
     }
-    static bool is_set(const Send& send) {
-        if (send.reg != nullptr || select_command(send.command)) return false;
-        const int index = (send.command & 0x1F) - static_cast<int>(Number::use_set_1);
-        return index >= 0 && index < 4;
-    }
+    static bool is_set(const Send& send) { return kind_of(send) == OrderKind::set; }
 
     /// `VELOCITY(Fast, Soft)` selects one after the other.
     static bool names_itself(const Rule& rule, const Send& send, Group group) {

@@ -6,6 +6,7 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 #include "syntax/names.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
 
 /// The modes that selecting commands set, and one bit for all others.
 enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 8, kAnyMode = 15 };
@@ -39,62 +39,21 @@ struct MotorState {
 
 /// Whether a mode sets IN_POS at all: velocity, position and gear modes (001 §4.4).
 bool sets_in_position(std::uint32_t mode) {
-    constexpr std::array<std::uint32_t, 9> kModes = {1, 2, 3, 17, 18, 19, 20, 21, 24};
-    return std::find(kModes.begin(), kModes.end(), mode) != kModes.end();
+    const OrderKind kind = table::kind_of_mode(mode);
+    return kind == OrderKind::run || kind == OrderKind::place;
 }
 
-bool is_home_mode(std::uint32_t mode) {
-    return mode >= 12 && mode <= 14;
+bool ends_homing(const Send& send) {
+    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG;
+    return select_command(send.command).has_value();
 }
 
-void apply_mode(std::uint32_t mode, Span span, MotorState& state) {
-    state.modes = mode == 0 ? kInit : mode == 1 ? kVelocity : mode == 2 ? kPosition : kOther;
-    if (mode == 0) state.init = span;
-    state.homing = is_home_mode(mode);
-    state.home = span;
-}
-
-void apply_write(const Send& send, MotorState& state) {
-    switch (send.reg->number) {
-        case registers::MODE_REG:
-            apply_mode(send.value, send.span, state);
-            break;
-        case registers::STARTMODE:
-            state.ends_in_position = sets_in_position(send.value);
-            state.start_mode = state.ends_in_position ? Span{} : send.span;
-            break;
-        case registers::V_SOLL:
-            state.stopped = send.value == 0;
-            state.stop = send.span;
-            break;
-        case registers::V_REG_P:
-            state.stopped = false;
-            break;
-        default:
-            break;
-    }
-}
-
-void apply_number(Number number, Span span, MotorState& state) {
-    switch (number) {
-        case Number::clear_v_soll:
-            state.stopped = true;
-            state.stop = span;
-            break;
-        case Number::use_set_1:
-        case Number::use_set_2:
-        case Number::use_set_3:
-        case Number::use_set_4:
-            state.stopped = false;
-            break;
-        case Number::home:
-            state.modes = kAnyMode;  // STARTMODE is entered at the end
-            state.homing = true;
-            state.home = span;
-            break;
-        default:
-            break;
-    }
+std::uint8_t modes_after(OrderKind kind, const Send& send) {
+    if (kind == OrderKind::init) return kInit;
+    if (kind == OrderKind::place || kind == OrderKind::hold) return kPosition;
+    if (kind == OrderKind::run && (send.reg == nullptr || send.value == 1)) return kVelocity;
+    const bool homes = kind == OrderKind::home && send.reg == nullptr;
+    return homes ? kAnyMode : kOther;  // STARTMODE is entered at the end
 }
 
 bool MotorState::join(const MotorState& other) {
@@ -116,34 +75,29 @@ bool MotorState::join(const MotorState& other) {
 }
 
 void MotorState::apply(const Send& send) {
-    if (send.reg != nullptr) return apply_write(send, *this);
-    const auto select = select_command(send.command);
-    if (!select) return apply_number(static_cast<Number>(send.command & 0x1F), send.span, *this);
-    apply_mode(select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U, send.span, *this);
-    if (select->selection.group == Group::v) stopped = false;
+    const sequencer::MotorOrder order = order_of(send);
+    const OrderKind kind = table::kind_of(order);
+    if (ends_homing(send) || kind == OrderKind::home) {
+        modes = modes_after(kind, send);
+        if (kind == OrderKind::init) init = send.span;
+        homing = kind == OrderKind::home;
+        home = send.span;
+    }
+    if (send.reg != nullptr && send.reg->number == registers::STARTMODE) {
+        ends_in_position = sets_in_position(send.value);
+        start_mode = ends_in_position ? Span{} : send.span;
+    }
+    if (kind == OrderKind::speed || table::velocity_taken(order) != 0) stopped = false;
+    if (kind == OrderKind::stop) {
+        stopped = true;
+        stop = send.span;
+    }
 }
 
 /// True with INPOS and false without it.
 bool waits_for_in_position(const Truth& when) {
     const Truth with = when & truth_of_bit(kInPosBit);
     return (with & ~(when << (std::size_t{1} << kInPosBit))).any();
-}
-
-bool ends_homing(const Send& send) {
-    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG;
-    return select_command(send.command).has_value();
-}
-
-bool starts_homing(const Send& send) {
-    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG && is_home_mode(send.value);
-    return !select_command(send.command) && static_cast<Number>(send.command & 0x1F) == Number::home;
-}
-
-bool is_move(std::uint8_t command) {
-    if (select_command(command)) return false;
-    const auto number = static_cast<Number>(command & 0x1F);
-    return number == Number::move_p7_by_p_fnc || number == Number::move_p8_by_p_fnc ||
-           number == Number::move_p7_by_p_soll || number == Number::move_p8_by_p_soll;
 }
 
 class MotorWalk {
@@ -180,16 +134,15 @@ class MotorWalk {
             if (const auto select = select_command(send.command); send.reg == nullptr && select)
                 judge_selection(*select, send, rule, state);
             if (send.reg != nullptr && send.reg->number == registers::MODE_REG) judge_mode(send, rule, state);
-            if (send.reg == nullptr && is_move(send.command) && state.stopped)
-                warn_stopped(send, rule, state);
+            if (kind_of(send) == OrderKind::moves_by && state.stopped) warn_stopped(send, rule, state);
             state.apply(send);
-            if (starts_homing(send)) home = &send;
+            if (kind_of(send) == OrderKind::home) home = &send;
         }
     }
 
   private:
     void judge_mode(const Send& send, const Rule& rule, const MotorState& state) {
-        if (send.value == 0 || is_home_mode(send.value) || (state.modes & kInit) == 0) return;
+        if (send.value == 0 || kind_of(send) == OrderKind::home || (state.modes & kInit) == 0) return;
         const char* where = send.value == 1   ? " at an old V_SOLL"
                             : send.value == 2 ? " towards an old P_SOLL"
                                               : "";

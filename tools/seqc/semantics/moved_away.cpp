@@ -8,10 +8,6 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
-
 struct AwayState {
     bool known = false;
     bool relative = false;
@@ -67,20 +63,12 @@ class AwayWalk {
             state.soll_is_0 = true;
         }
         if (send.reg != nullptr) return apply_write(state, send);
-        if (const auto select = select_command(send.command)) {
-            if (select->selection.group != Group::p) return;
-            state.soll_is_0 = false;
-            state.ran = {};
-            return;
-        }
-        apply_number(state, static_cast<Number>(send.command & 0x1F), send.span);
+        apply_command(state, send);
     }
 
     void judge(const Rule& rule, AwayState state) {
         for (const Send& send : rule.action.sends) {
-            const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
-            if (select && select->mode == Mode::position && select->selection.group == Group::p)
-                judge_move(send, state);
+            if (send.reg == nullptr && kind_of(send) == OrderKind::place) judge_move(send, state);
             apply(state, send);
         }
     }
@@ -105,36 +93,21 @@ class AwayWalk {
         state.ran = {};  // a written target is taken as meant
     }
 
-    static void apply_number(AwayState& state, Number number, Span span) {
-        switch (number) {
-            case Number::positions_absolute:
-                state.relative = false;
-                return;
-            case Number::positions_relative_p_soll:
-            case Number::positions_relative_p_fnc:
-                state.relative = true;
-                return;
-            case Number::clear_p_soll:
-                return state.clear_one(&AwayState::soll_is_0);
-            case Number::clear_p_fnc:
-                state.cleared = {};
-                return state.clear_one(&AwayState::fnc_is_0);
-            case Number::clear_p_ist:
-                if (!state.fnc_is_0) state.cleared = span;
-                return;
-            case Number::move_p7_by_p_soll:
-            case Number::move_p8_by_p_soll:
-            case Number::move_p7_by_p_fnc:
-            case Number::move_p8_by_p_fnc:
-            case Number::use_set_1:
-            case Number::use_set_2:
-            case Number::use_set_3:
-            case Number::use_set_4:
-                state.soll_is_0 = false;
-                state.ran = {};
-                return;
-            default:
-                return;
+    static void apply_command(AwayState& state, const Send& send) {
+        const OrderKind kind = kind_of(send);
+        const auto select = select_command(send.command);
+        if (select ? select->selection.group == protocol::fastmac::Group::p
+                   : kind == OrderKind::moves_by || kind == OrderKind::set) {
+            state.soll_is_0 = false;
+            state.ran = {};
+        }
+        if (kind == OrderKind::absolute) state.relative = false;
+        if (kind == OrderKind::relative) state.relative = true;
+        if (kind == OrderKind::clears_p_soll) state.clear_one(&AwayState::soll_is_0);
+        if (kind == OrderKind::clears_p_ist && !state.fnc_is_0) state.cleared = send.span;
+        if (kind == OrderKind::clears_p_fnc) {
+            state.cleared = {};
+            state.clear_one(&AwayState::fnc_is_0);
         }
     }
 

@@ -14,8 +14,8 @@ namespace {
 using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;
 
 void add_target(const RawTerm& raw, std::array<StepSet, 64>& targets) {
-    if (sequencer::is_flex(raw.bytes)) return;
-    targets[sequencer::step_of(raw.bytes)].set(raw.bytes[3] & 0x3F);
+    const sequencer::Term term = sequencer::decode(raw.bytes);
+    if (!term.is_flex) targets[term.condition.step].set(term.fast.next_step);
 }
 
 using Targets = std::array<StepSet, 64>;

@@ -6,6 +6,7 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 
 namespace nplc::seqc {
@@ -42,10 +43,9 @@ class RelativeWalk {
     static void enter(PositionState&, const StepPlan&, const Rule&) {}
 
     static void apply(PositionState& state, const Send& send) {
-        if (send.reg != nullptr || select_command(send.command)) return;
-        const auto number = static_cast<Number>(send.command & 0x1F);
-        if (number == Number::positions_absolute) state.relative = false;
-        if (number != Number::positions_relative_p_soll && number != Number::positions_relative_p_fnc) return;
+        const OrderKind kind = kind_of(send);
+        if (kind == OrderKind::absolute) state.relative = false;
+        if (kind != OrderKind::relative) return;
         state.relative = true;
         state.since = send.span;
     }

@@ -3,35 +3,25 @@
 #include <set>
 
 #include "semantics/checker.h"
-#include "semantics/commands.h"
+#include "semantics/orders.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
-
 enum class Motion : std::uint8_t { none, place, velocity, home, end };
 
-bool is_relative(const Send& send) {
-    if (send.reg != nullptr || select_command(send.command)) return false;
-    const auto number = static_cast<Number>(send.command & 0x1F);
-    return number == Number::positions_relative_p_soll || number == Number::positions_relative_p_fnc;
-}
-
+/// A VELOCITY without a velocity only selects.
 Motion motion_of(const Send& send) {
     if (send.reg != nullptr) return Motion::none;
-    if (const auto select = select_command(send.command)) {
-        if (select->mode == Mode::init) return Motion::end;
-        if (select->mode == Mode::velocity)
-            return select->selection.group == Group::v ? Motion::velocity : Motion::none;
-        return select->selection.group == Group::p ? Motion::place : Motion::none;
-    }
-    switch (static_cast<Number>(send.command & 0x1F)) {
-        case Number::clear_v_soll:
+    switch (kind_of(send)) {
+        case OrderKind::init:
+        case OrderKind::stop:
             return Motion::end;
-        case Number::home:
+        case OrderKind::run:
+            return table::velocity_taken(order_of(send)) != 0 ? Motion::velocity : Motion::none;
+        case OrderKind::place:
+            return Motion::place;
+        case OrderKind::home:
             return Motion::home;
         default:
             return Motion::none;
@@ -71,7 +61,8 @@ void judge(const Rule& rule, std::set<std::uint32_t>& said, Report& report) {
 /// Relative positions add up, so two of them may be intended.
 void check_replaced_moves(const Plan& plan, Report& report) {
     bool relative = false;
-    for_each_send(plan, [&](const Send& send) { relative = relative || is_relative(send); });
+    for_each_send(plan,
+                  [&](const Send& send) { relative = relative || kind_of(send) == OrderKind::relative; });
     if (relative) return;
     std::set<std::uint32_t> said;
     for (const StepPlan& step : plan.steps) {

@@ -1,23 +1,11 @@
 #include "semantics/truth.h"
 
-#include <array>
+#include "table/step.h"
 
 namespace nplc::seqc {
-namespace {
-
-std::array<Truth, kBits> make_bits() {
-    std::array<Truth, kBits> bits;
-    for (std::size_t c = 0; c < kCases; ++c) {
-        for (std::size_t b = 0; b < kBits; ++b) bits[b][c] = ((c >> b) & 1U) != 0;
-    }
-    return bits;
-}
-
-}  // namespace
 
 Truth truth_of_bit(std::size_t bit) {
-    static const std::array<Truth, kBits> bits = make_bits();
-    return bits[bit];
+    return table::cases_with(static_cast<unsigned>(bit));
 }
 
 Truth truth_of(Product product) {

@@ -7,14 +7,13 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 
 namespace nplc::seqc {
 namespace {
 
 using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
 
 /// What V_SOLL got its value from: V1..V8 by index, or 0 for what is written to V_SOLL itself.
 struct Source {
@@ -58,17 +57,9 @@ class SpeedWalk {
             if (send.reg->number == registers::V_SOLL) state.sources = {{0, &send}};
             return;
         }
-        if (const auto select = select_command(send.command)) {
-            if (select->selection.group == Group::v) state.sources = {{select->selection.index, nullptr}};
-            return;
-        }
-        const auto number = static_cast<Number>(send.command & 0x1F);
-        if (number == Number::clear_v_soll) state.sources.clear();
-        if (number >= Number::use_set_1 && number <= Number::use_set_4) {
-            const auto set =
-                static_cast<std::uint8_t>(send.command & 0x1F) - static_cast<std::uint8_t>(Number::use_set_1);
-            state.sources = {{static_cast<std::uint8_t>(set + 1), nullptr}};
-        }
+        if (kind_of(send) == OrderKind::stop) state.sources.clear();
+        if (const auto velocity = selection_of(table::velocity_taken(order_of(send))))
+            state.sources = {{velocity->index, nullptr}};
     }
 
     void judge(const Rule& rule, SpeedState state) {
@@ -85,12 +76,8 @@ class SpeedWalk {
 
   private:
     static bool moves_to_place(const Send& send) {
-        if (send.reg != nullptr) return false;
-        if (const auto select = select_command(send.command))
-            return select->mode == Mode::position && select->selection.group == Group::p;
-        const auto number = static_cast<Number>(send.command & 0x1F);
-        return number == Number::move_p7_by_p_fnc || number == Number::move_p8_by_p_fnc ||
-               number == Number::move_p7_by_p_soll || number == Number::move_p8_by_p_soll;
+        const OrderKind kind = kind_of(send);
+        return send.reg == nullptr && (kind == OrderKind::place || kind == OrderKind::moves_by);
     }
 
     bool may_be_zero(const Send& written) const {

@@ -10,10 +10,10 @@ namespace nplc::seqc {
 namespace {
 
 /// "A; B": the orders, with the program's names and units.
-std::string named_texts(const ScanResult& outcome, const Symbols* symbols) {
+std::string named_texts(const table::Outcome& outcome, const Symbols* symbols) {
     std::string text;
     for (const auto& order : outcome.orders) append(text, named_order_text(order, symbols), "; ");
-    ScanResult rest = outcome;
+    table::Outcome rest = outcome;
     rest.orders.clear();
     for (const std::string& part : action_texts(rest, symbols)) append(text, part, "; ");
     return text;
@@ -179,13 +179,13 @@ void GraphWays::name_the_rest(std::vector<Way>& ways) const {
 }
 
 std::string GraphWays::actions(std::uint8_t step, const Reaction& reaction) const {
-    ScanResult outcome = reaction.outcome;
+    table::Outcome outcome = reaction.outcome;
     auto& orders = outcome.orders;
     if (outcome.next != step) {
         const Entry& entry = entries_[outcome.next];
         orders.resize(orders.size() - entry.orders.size());
         if (entry.timer != 0) outcome.timer = 0;
-        if (entry.counter_preset != 0) outcome.counter = CounterChange::none;
+        if (entry.counter_preset != 0) outcome.counter = table::CounterChange::none;
         if (step == 0)
             orders.erase(orders.begin(), orders.begin() + static_cast<std::ptrdiff_t>(power_up_.size()));
     }
@@ -208,11 +208,11 @@ std::vector<std::string> GraphWays::entry(std::uint8_t step) const {
         }
         return lines;
     }
-    ScanResult outcome;
+    table::Outcome outcome;
     outcome.orders = step == 0 ? power_up_ : entries_[step].orders;
     outcome.timer = entries_[step].timer;
     outcome.counter_preset = entries_[step].counter_preset;
-    if (outcome.counter_preset != 0) outcome.counter = CounterChange::preset;
+    if (outcome.counter_preset != 0) outcome.counter = table::CounterChange::preset;
     for (const auto& order : outcome.orders) lines.push_back(named_order_text(order, symbols_));
     outcome.orders.clear();
     for (const std::string& text : action_texts(outcome, symbols_)) lines.push_back(text);

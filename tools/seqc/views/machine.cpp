@@ -5,19 +5,7 @@
 namespace nplc::seqc {
 namespace {
 
-using sequencer::TermView;
-
-std::vector<TermView> terms_of(std::span<const std::uint8_t> table) {
-    std::vector<TermView> terms;
-    for (std::size_t at = 0; at + sequencer::kTermBytes <= table.size(); at += sequencer::kTermBytes) {
-        const TermView term = table.subspan(at).first<sequencer::kTermBytes>();
-        if (sequencer::is_end(term)) break;
-        terms.push_back(term);
-    }
-    return terms;
-}
-
-KnownOutputs after(const ScanResult& outcome, const KnownOutputs& before) {
+KnownOutputs after(const table::Outcome& outcome, const KnownOutputs& before) {
     return outcome.outputs ? KnownOutputs{kAllOutputs, *outcome.outputs} : before;
 }
 
@@ -35,12 +23,12 @@ class Walk {
         while (!open_.empty()) {
             const std::uint8_t step = open_.back();
             open_.pop_back();
-            for (const ScanResult& outcome : machine_.steps[step].outcomes) follow(step, outcome);
+            for (const table::Outcome& outcome : machine_.steps[step].outcomes) follow(step, outcome);
         }
     }
 
   private:
-    void follow(std::uint8_t step, const ScanResult& outcome) {
+    void follow(std::uint8_t step, const table::Outcome& outcome) {
         const KnownOutputs outputs = after(outcome, machine_.held[step]);
         if (outcome.next != step) arrive(outcome.next, outputs, machine_.entered_with, machine_.reachable);
         arrive(outcome.next, outputs, machine_.held, held_);
@@ -63,15 +51,15 @@ class Walk {
 }  // namespace
 
 Machine machine_of(std::span<const std::uint8_t> table) {
-    const std::vector<TermView> terms = terms_of(table);
+    const std::vector<sequencer::TermView> terms = table::terms_of(table);
     Machine machine;
     machine.terms = terms.size();
     machine.used.set(0);
     for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
-        machine.steps[step] = behaviour_of(step, terms);
+        machine.steps[step] = table::step_of(step, terms);
         if (machine.steps[step].terms == 0) continue;
         machine.used.set(step);
-        for (const ScanResult& outcome : machine.steps[step].outcomes) machine.used.set(outcome.next);
+        for (const table::Outcome& outcome : machine.steps[step].outcomes) machine.used.set(outcome.next);
     }
     Walk walk(machine);
     return machine;
@@ -87,11 +75,11 @@ struct Writes {
     Truth leaves;
 };
 
-Writes writes_of(const StepBehaviour& behaviour, std::uint8_t bit) {
+Writes writes_of(const table::Step& behaviour, std::uint8_t bit) {
     Writes writes;
     for (std::size_t c = 0; c < kCases; ++c) {
-        const ScanResult& outcome = behaviour.in(c);
-        if (outcome.next != behaviour.step) {
+        const table::Outcome& outcome = behaviour.in(c);
+        if (outcome.next != behaviour.number) {
             writes.leaves.set(c);
         } else if (!outcome.outputs) {
             writes.kept.set(c);
@@ -122,15 +110,18 @@ void add_rules(const Machine& machine, std::uint8_t step, std::uint8_t bit, std:
 /// A transition into a step.
 struct Way {
     std::uint8_t from = 0;
-    const ScanResult* outcome = nullptr;
+    const table::Outcome* outcome = nullptr;
 };
 
 std::vector<Way> ways_into(const Machine& machine, std::uint8_t step) {
     std::vector<Way> ways;
     for (std::uint8_t from = 0; from < kStepNumbers; ++from) {
         if (from == step) continue;
-        for (const ScanResult& outcome : machine.steps[from].outcomes) {
-            if (outcome.next == step) ways.push_back({from, &outcome});
+        for (const table::Outcome& outcome : machine.steps[from].outcomes) {
+            const bool is_known = std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
+                return way.from == from && *way.outcome == outcome;
+            });
+            if (outcome.next == step && !is_known) ways.push_back({from, &outcome});
         }
     }
     return ways;
@@ -155,11 +146,11 @@ Entry entry_of(const Machine& machine, std::uint8_t step) {
     const bool from_others =
         std::any_of(ways.begin(), ways.end(), [](const Way& way) { return way.from != 0; });
     if (ways.size() < 2 || !from_others) return {};
-    const ScanResult& first = *ways.front().outcome;
+    const table::Outcome& first = *ways.front().outcome;
     std::size_t common = first.orders.size();
     Entry entry{.orders = {}, .timer = first.timer, .counter_preset = first.counter_preset};
     for (const Way& way : ways) {
-        const ScanResult& outcome = *way.outcome;
+        const table::Outcome& outcome = *way.outcome;
         common = std::min(common, common_length(first.orders.rbegin(), first.orders.rend(),
                                                 outcome.orders.rbegin(), outcome.orders.rend()));
         if (outcome.timer != entry.timer) entry.timer = 0;
@@ -170,9 +161,9 @@ Entry entry_of(const Machine& machine, std::uint8_t step) {
 }
 
 std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
-    const ScanResult* first = nullptr;
+    const table::Outcome* first = nullptr;
     std::size_t common = 0;
-    for (const ScanResult& outcome : machine.steps[0].outcomes) {
+    for (const table::Outcome& outcome : machine.steps[0].outcomes) {
         if (outcome.next == 0) continue;
         if (first == nullptr) {
             first = &outcome;
@@ -190,7 +181,7 @@ std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
 namespace {
 
 /// The part of an outcome that distinguishes reactions.
-Reaction reaction_for(const Machine& machine, std::uint8_t step, const ScanResult& outcome) {
+Reaction reaction_for(const Machine& machine, std::uint8_t step, const table::Outcome& outcome) {
     Reaction reaction{.when = {}, .outcome = outcome};
     const bool leaves = outcome.next != step;
     if (leaves && outcome.outputs)
@@ -226,10 +217,10 @@ void add_split_by_error(const Reaction& reaction, std::vector<Reaction>& reactio
 }  // namespace
 
 std::vector<Reaction> reactions_of(const Machine& machine, std::uint8_t step) {
-    const StepBehaviour& behaviour = machine.steps[step];
+    const table::Step& behaviour = machine.steps[step];
     std::vector<Reaction> merged;
     std::vector<std::size_t> index_of;  // by outcome
-    for (const ScanResult& outcome : behaviour.outcomes) {
+    for (const table::Outcome& outcome : behaviour.outcomes) {
         const Reaction reaction = reaction_for(machine, step, outcome);
         const auto found = std::find_if(merged.begin(), merged.end(),
                                         [&](const Reaction& r) { return is_same(r, reaction); });

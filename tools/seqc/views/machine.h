@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "lowering/scan.h"
+#include "semantics/truth.h"
+#include "table/step.h"
 
 /// The behaviour of a whole table: any table, not only one from the compiler.
 namespace nplc::seqc {
@@ -25,7 +26,7 @@ struct KnownOutputs {
 
 struct Machine {
     std::size_t terms = 0;  ///< without the end term
-    std::array<StepBehaviour, kStepNumbers> steps;
+    std::array<table::Step, kStepNumbers> steps;
     std::bitset<kStepNumbers> used;       ///< has terms, is step 0, or is the target of a term
     std::bitset<kStepNumbers> reachable;  ///< from power-up, for any inputs, timer and counter
     /// Outputs with which a reachable step is entered from others (step 0: also by power-up).
@@ -40,7 +41,7 @@ Machine machine_of(std::span<const std::uint8_t> table);
 /// An action of a step, and its condition. Not included: staying and at most writing outputs.
 struct Reaction {
     Truth when;
-    ScanResult outcome;              ///< `outputs` only if the following step does not fix them
+    table::Outcome outcome;          ///< `outputs` only if the following step does not fix them
     std::uint8_t outputs_shown = 0;  ///< the bits of `outcome.outputs` that are not fixed
 
     bool only_on_error() const { return (when & ~truth_of_bit(kErrorBit)).none(); }

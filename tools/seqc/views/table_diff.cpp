@@ -76,8 +76,8 @@ class Matching {
         std::size_t acting = 0;
         std::size_t same = 0;
         for (std::size_t c = 0; c < kCases; ++c) {
-            const ScanResult& x = before_.steps[a].in(c);
-            const ScanResult& y = now_.steps[b].in(c);
+            const table::Outcome& x = before_.steps[a].in(c);
+            const table::Outcome& y = now_.steps[b].in(c);
             const bool stays = x.next == a && y.next == b;
             if (stays && x.is_quiet() && y.is_quiet()) continue;
             ++acting;
@@ -128,17 +128,17 @@ struct ComparedTable {
 
     /// Outputs determined by the step itself: those with which the following step is entered, or those that a
     /// staying step always has. An unreachable step may enter it with others.
-    std::uint8_t settled(std::uint8_t step, const ScanResult& outcome) const {
+    std::uint8_t settled(std::uint8_t step, const table::Outcome& outcome) const {
         const KnownOutputs& always =
             outcome.next == step ? machine.held[step] : machine.entered_with[outcome.next];
         const KnownOutputs after = outputs_after(step, outcome);
         return static_cast<std::uint8_t>(always.known & after.known & ~(always.value ^ after.value));
     }
-    KnownOutputs outputs_after(std::uint8_t step, const ScanResult& outcome) const {
+    KnownOutputs outputs_after(std::uint8_t step, const table::Outcome& outcome) const {
         constexpr std::uint8_t kAll = 0x0F;
         return outcome.outputs ? KnownOutputs{kAll, *outcome.outputs} : machine.held[step];
     }
-    std::vector<MotorOrder> without_entry(const ScanResult& outcome) const {
+    std::vector<MotorOrder> without_entry(const table::Outcome& outcome) const {
         std::vector<MotorOrder> orders = outcome.orders;
         orders.resize(orders.size() - entries[outcome.next].orders.size());
         return orders;
@@ -244,8 +244,8 @@ class Differ {
     }
 
     std::pair<StepAction, StepAction> actions(std::uint8_t a, std::uint8_t b, std::size_t c) const {
-        const ScanResult& x = before_.machine.steps[a].in(c);
-        const ScanResult& y = now_.machine.steps[b].in(c);
+        const table::Outcome& x = before_.machine.steps[a].in(c);
+        const table::Outcome& y = now_.machine.steps[b].in(c);
         std::pair<StepAction, StepAction> result{step_action_of(x, c), step_action_of(y, c)};
         auto& [before, now] = result;
         if (x.next != a) name_target_before(x.next, before);

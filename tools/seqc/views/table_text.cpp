@@ -166,20 +166,20 @@ std::string time_text(std::uint16_t milliseconds) {
     return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
 }
 
-std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols) {
+std::vector<std::string> action_texts(const table::Outcome& outcome, const Symbols* symbols) {
     std::vector<std::string> texts;
     for (const auto& order : outcome.orders) texts.push_back(order_text(order, symbols));
     if (outcome.timer != 0) texts.push_back("TIMER := " + time_text(outcome.timer));
     switch (outcome.counter) {
-        case CounterChange::none:
+        case table::CounterChange::none:
             break;
-        case CounterChange::clear:
+        case table::CounterChange::clear:
             texts.emplace_back("CLEAR_COUNTER");
             break;
-        case CounterChange::preset:
+        case table::CounterChange::preset:
             texts.push_back(fmt::format("COUNTER := {}", outcome.counter_preset));
             break;
-        case CounterChange::count_down:
+        case table::CounterChange::count_down:
             texts.emplace_back("COUNT_DOWN");
             break;
     }
@@ -239,13 +239,13 @@ namespace {
 
 std::string counter_text(const StepAction& action) {
     switch (action.counter) {
-        case CounterChange::none:
+        case table::CounterChange::none:
             break;
-        case CounterChange::clear:
+        case table::CounterChange::clear:
             return "clears the counter";
-        case CounterChange::preset:
+        case table::CounterChange::preset:
             return fmt::format("sets COUNTER := {}", action.counter_preset);
-        case CounterChange::count_down:
+        case table::CounterChange::count_down:
             return "counts down";
     }
     return {};
@@ -270,14 +270,15 @@ bool StepAction::operator==(const StepAction& other) const {
            counter == other.counter && counter_preset == other.counter_preset && outputs == other.outputs;
 }
 
-StepAction step_action_of(const ScanResult& outcome, std::size_t c) {
+StepAction step_action_of(const table::Outcome& outcome, std::size_t c) {
     StepAction action;
     action.orders = outcome.orders;
     action.timer = outcome.timer;
     action.counter = outcome.counter;
     action.counter_preset = outcome.counter_preset;
     const bool counter_zero = ((c >> kCounterZero) & 1) != 0;
-    if (counter_zero && action.counter != CounterChange::preset) action.counter = CounterChange::none;
+    if (counter_zero && action.counter != table::CounterChange::preset)
+        action.counter = table::CounterChange::none;
     return action;
 }
 

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "lowering/scan.h"
 #include "seqc/seqc.h"
 #include "views/machine.h"
 
@@ -45,7 +44,7 @@ std::string time_text(std::uint16_t milliseconds);
 
 /// "POSITION(P2)", "TIMER := T#500ms", "COUNT_DOWN" and so on: everything except the next step and the
 /// outputs.
-std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols);
+std::vector<std::string> action_texts(const table::Outcome& outcome, const Symbols* symbols);
 
 /// A condition that is true in all cases of `need` and in none outside of `need` and `open`: "Start AND NOT
 /// Guard". As in the language it implies NOT ERROR unless it names ERROR. "always" without a condition.
@@ -63,7 +62,7 @@ struct StepAction {
     std::string next;  ///< its name
     std::vector<sequencer::MotorOrder> orders;
     std::uint16_t timer = 0;
-    CounterChange counter = CounterChange::none;
+    table::CounterChange counter = table::CounterChange::none;
     std::uint16_t counter_preset = 0;
     KnownOutputs outputs;           ///< where two tables differ and the steps themselves do not determine it
     std::uint8_t kept_outputs = 0;  ///< outputs without a certain value
@@ -72,7 +71,7 @@ struct StepAction {
 
 /// The action of a scan in case `c`, without the next step. Counter operations without effect at zero are
 /// omitted.
-StepAction step_action_of(const ScanResult& outcome, std::size_t c);
+StepAction step_action_of(const table::Outcome& outcome, std::size_t c);
 
 /// "sends STOP and goes to Fault"; "nothing".
 std::string text_of(const StepAction& action, const Symbols* symbols);

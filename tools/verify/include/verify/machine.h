@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "sequencer/state.h"
 #include "sequencer/table.h"
+#include "table/step.h"
 #include "verify/property.h"
 
 /// A table prepared for exploration: for each step, the effect of a scan for each set of images.
@@ -46,11 +46,9 @@ struct PresetRanges {
 /// The common effect of all images of a set in one step, with timer and counter zero or not.
 struct Group {
     std::uint32_t number = 0;  ///< among all of the machine
-    sequencer::Pending pending;
+    table::Outcome outcome;    ///< with the orders of one of the images
     ImageSet images;
-    std::vector<sequencer::MotorOrder> orders;  ///< those of one of the images
-    Delay delay;                                ///< driver only
-    bool sends = false;
+    Delay delay;                ///< driver only
     bool error = false;         ///< driver only: in all its images, else in none
     bool in_pos = false;        ///< of all its images, if the machine tells motion
     bool disturbs = false;      ///< ERROR in all its images, if the machine times moves
@@ -109,10 +107,9 @@ class Machine {
     static std::size_t row_of(std::uint8_t step, bool timer_zero, bool counter_zero) {
         return step * 4U + (timer_zero ? 1U : 0U) + (counter_zero ? 2U : 0U);
     }
-    void fill_row(const sequencer::Table& table, const std::vector<std::uint16_t>& terms, unsigned zeros,
+    void fill_row(const table::Step& step, const std::vector<std::size_t>& kinds, unsigned zeros,
                   const OrderTime& order_time);
-    void add_group(const sequencer::Table& table, const sequencer::Pending& pending,
-                   const std::vector<std::uint16_t>& senders, const OrderTime& order_time);
+    void add_group(const table::Outcome& outcome, unsigned told, const OrderTime& order_time);
 
     Assume assume_;
     ImageSet permitted_;
