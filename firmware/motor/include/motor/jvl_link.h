@@ -121,7 +121,7 @@ class JvlLink {
     std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not accepted
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
-    bool reads_ = false;       ///< the answer to request_ is pending
+    bool reads_ = false;  ///< the answer to request_ is pending
     bool synchronized_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;
