@@ -433,17 +433,31 @@ class Checker {
                         const std::vector<Rule>& up_to_it) {
         Untaken& untaken = untaken_[&branch];
         untaken.is_taken = untaken.is_taken || !sound || when.any();
-        if (!untaken.is_taken && untaken.own.none() && own.any()) {
-            untaken.own = own;
-            untaken.up_to_it = up_to_it;
+        if (!untaken.is_taken && untaken.contradicts_itself && own.any()) {
+            untaken.contradicts_itself = false;
+            untaken.taken_by = takers(own, up_to_it);
         }
         return state_ == 0 && !untaken.is_taken;
     }
 
-    /// Records which branches take its cases, each case once.
+    /// Where the branches are that take its cases, each case once. Of the first ones only: there may be tens
+    /// of thousands, and no more are shown.
+    std::vector<Span> takers(Truth left, const std::vector<Rule>& up_to_it) {
+        constexpr unsigned kMost = 1'000;
+        std::vector<Span> found;
+        if (takers_found_ == kMost) return found;
+        ++takers_found_;
+        for (std::size_t i = 0; left.any(); ++i) {
+            if ((up_to_it[i].when & left).none()) continue;
+            found.push_back(up_to_it[i].condition);
+            left &= ~up_to_it[i].when;
+        }
+        return found;
+    }
+
     void warn_never(const ast::Branch& branch) {
-        const auto& [is_taken, own, up_to_it] = untaken_[&branch];
-        if (own.none()) {
+        const Untaken& untaken = untaken_[&branch];
+        if (untaken.contradicts_itself) {
             report_.add("W001", place_of(branch), "this branch is never taken",
                         "its condition contradicts itself: mend it, or take the branch out");
             return;
@@ -452,12 +466,8 @@ class Checker {
         Diagnostic& d = report_.add("W001", place_of(branch), "this branch is never taken",
                                     "the branches before it take every case: put it before them, or "
                                     "take it out");
-        Truth left = own;
-        for (std::size_t i = 0; left.any() && !is_dropped; ++i) {
-            if ((up_to_it[i].when & left).none()) continue;
-            d.notes.push_back({up_to_it[i].condition, "this one comes first"});
-            left &= ~up_to_it[i].when;
-        }
+        if (is_dropped) return;
+        for (const Span place : untaken.taken_by) d.notes.push_back({place, "this one comes first"});
     }
 
     Action branch_action(const ast::Branch& branch, std::uint8_t number) {
@@ -567,10 +577,11 @@ class Checker {
     /// A branch through the states of its step's memory: its cases in the first one that has any.
     struct Untaken {
         bool is_taken = false;
-        Truth own;
-        std::vector<Rule> up_to_it;
+        bool contradicts_itself = true;
+        std::vector<Span> taken_by;
     };
     std::map<const ast::Branch*, Untaken> untaken_;
+    unsigned takers_found_ = 0;       ///< branches for which they were looked for
     const Memory* memory_ = nullptr;  ///< of the present step, and its state
     std::size_t state_ = 0;
 };
