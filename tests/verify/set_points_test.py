@@ -149,7 +149,8 @@ def rehearsed(bench, path, count, rng):
     for i in range(count):
         own = rehearse_test.own_actions(path) if i % 2 == 0 else []
         own = [line for line in own if not re.search(r"\bset\b", line)]
-        scenario = "\n".join([*own, *rehearse_test.random_actions(rng, False), *random_values(points, rng), f"end at {SECONDS} s"]) + "\n"
+        actions = [*own, *rehearse_test.random_actions(rng, False), *random_values(points, rng)]
+        scenario = "\n".join([*filter(rehearse_test.before_the_end, actions), f"end at {SECONDS} s"]) + "\n"
         rows = bench.trace(program, scenario, rng)
         scans = [{"step": r.step, "counter": 0 if r.counter_zero else 1, "outputs": r.outputs, "image": r.image} for r in rows]
         for one in properties:
