@@ -36,6 +36,14 @@ OrderBook::Entry* OrderBook::find(const sim::SentOrder& order) {
     return nullptr;
 }
 
+/// The bytes 00h and 02h of a write of MODE_REG are INIT(P1) and INIT(P3).
+bool OrderBook::is_part_of_blind_stop(const sim::SentOrder& order) const {
+    constexpr Time kUntilTheNext = std::chrono::milliseconds{60};
+    return switched_on_ && world_.now() - *switched_on_ < kUntilTheNext &&
+           !motor::delivers(world_.driver().link()) && !order.is_register_write &&
+           (order.command == 0x00 || order.command == 0x02);
+}
+
 void OrderBook::executed(const sim::Order& order) {
     const sim::SentOrder sent = sim::as_sent(order, protocol::fastmac::RegisterCode::format_list);
     if (sim::concerns_the_link_only(sent)) return;
@@ -46,7 +54,7 @@ void OrderBook::executed(const sim::Order& order) {
         ++matched_;
     } else if (const auto of_person = std::ranges::find(of_person_, sent); of_person != of_person_.end()) {
         of_person_.erase(of_person);
-    } else if (is_excused()) {
+    } else if (is_excused() || is_part_of_blind_stop(sent)) {
         ++excused_;
     } else {
         say("executed, and not ordered in the last seconds", sent);

@@ -36,6 +36,9 @@ class OrderBook {
     void restart();
     /// The line changed characters in a way that no repeat shows: for a while what is executed is not judged.
     void excuse(Time until) { excused_until_ = std::max(excused_until_, until); }
+    /// The motor was switched on: in the middle of a blind stop it takes the rest of it for commands
+    /// (firmware/motor/README.md), until the next one.
+    void switched_on() { switched_on_ = world_.now(); }
 
     /// Empty, or the first breach.
     bool has_open() const { return !open_.empty(); }
@@ -53,6 +56,7 @@ class OrderBook {
     };
 
     Entry* find(const sim::SentOrder& order);
+    bool is_part_of_blind_stop(const sim::SentOrder& order) const;
     void drop_last();
     void say(const std::string& what, const sim::SentOrder& order);
     bool is_excused() const { return world_.now() < excused_until_; }
@@ -66,6 +70,7 @@ class OrderBook {
     std::size_t given_ = 0;
     motor::Counters seen_{};
     Time excused_until_{0};
+    std::optional<Time> switched_on_{};
     std::uint64_t matched_ = 0;
     std::uint64_t excused_ = 0;
     std::string breach_;

@@ -240,6 +240,7 @@ void SoakRun::power_motor(bool on) {
     world_.power_motor(on);
     // It begins with rapid communication, where every damaged character is another command.
     if (on && damage_ > 0) excuses_ = true;
+    if (on) orders_.switched_on();
     if (is_back && fault_ == Fault::order_twice) armed_until_ = world_.now() + kForgetful;
 }
 
