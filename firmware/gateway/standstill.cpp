@@ -24,7 +24,7 @@ std::uint8_t Standstill::register_of_phase() const {
 }
 
 Progress Standstill::poll(base::Instant now) {
-    if (!motor::delivers(motor_.link()) || now - begun_ > kLongest) return CommandResult{Result::link_down};
+    if (now - begun_ > kLongest) return CommandResult{Result::link_down};
     if (!asked_) {
         if (phase_ == Phase::second_position && now - position_at_ < kBetween) return std::nullopt;
         asked_ = motor_.begin_access({.reg = register_of_phase(), .longword = !is_word()});
@@ -47,7 +47,7 @@ Progress Standstill::poll(base::Instant now) {
 
 base::Instant Standstill::next_poll(base::Instant now) const {
     const base::Instant patience = begun_ + kLongest + base::Microseconds(1);
-    if (motor::is_open(motor_.access_state())) return patience;
+    if (motor::is_open(motor_.access_state()) || !motor::delivers(motor_.link())) return patience;
     const bool pauses = !asked_ && phase_ == Phase::second_position;
     return std::min(patience, pauses ? std::max(now, position_at_ + kBetween) : now);
 }

@@ -318,6 +318,20 @@ TEST(AxisLoop, ReadsAndWritesTheMotorByThePortsRules) {
               Result::link_down);
 }
 
+/// Neither takes the other one's answer: a motor that turns is not said to stand, and V_IST is no position.
+TEST(AxisLoop, AnActivationHasTheMotorForItself) {
+    Bench bench({.motor_period = 1ms});
+    bench.port.board.motor_registers[registers::P_IST] = 4'711;
+    bench.port.board.motor_registers[registers::V_IST] = 500;
+    for (int turn = 0; turn < 100; ++turn) {
+        bench.run(turn % 10 * 250us);
+        EXPECT_EQ(bench.result(*bench.panel, bench.order(gw::Command::activate)), Result::moving);
+        const AxisImage image = bench.model.image(bench.now());
+        const MotorValue& position = image.motor[static_cast<std::size_t>(MotorItem::position)];
+        EXPECT_TRUE(!position.is_known || position.value == 4'711) << position.value;
+    }
+}
+
 TEST(AxisLoop, KnowsTheMotorsValuesAndHowOldTheyAre) {
     Bench bench;
     bench.port.board.motor_registers[registers::P_IST] = static_cast<std::uint32_t>(-12'345);

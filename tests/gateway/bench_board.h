@@ -38,6 +38,7 @@ struct BenchBoard final : ports::DigitalInputs,
     bool stop_confirmed() const override { return stop_is_confirmed && now >= stop_confirmed_at; }
     void give_up_stop() override { stop_is_confirmed = true; }
     bool begin_access(const motor::Access& wanted) override {
+        if (!motor::delivers(link_state)) return false;
         if (access != motor::AccessState::none && access != motor::AccessState::done &&
             access != motor::AccessState::failed)
             return false;

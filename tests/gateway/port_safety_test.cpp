@@ -68,6 +68,21 @@ TEST_F(PortSafety, ATableBecomesActiveOnlyWhileTheMotorStandsStill) {
     EXPECT_TRUE(command(Command::activate));
 }
 
+/// A drive that has just been switched on answers a little later than the gateway's port.
+TEST_F(PortSafety, AnActivationWaitsASecondForTheLink) {
+    ASSERT_TRUE(upload(kTable));
+    board.link_state = motor::Link::down;
+    ask({.kind = mactalk::Kind::write,
+         .address = reg::kDefaultAddress,
+         .reg = reg::COMMAND,
+         .length = 4,
+         .value = static_cast<std::uint32_t>(Command::activate)});
+    EXPECT_TRUE(heard(900ms).empty());
+    board.link_state = motor::Link::up;
+    EXPECT_EQ(heard(90ms), (std::vector<std::uint8_t>{0x11, 0x11, 0x11})) << "accept";
+    EXPECT_EQ(read(reg::TABLE_BYTES), kTable.size());
+}
+
 TEST_F(PortSafety, AResetMakesNoNewTableActiveWhileTheMotorMoves) {
     ASSERT_TRUE(upload(kTable));
     board.motor_registers[kVIst] = 1;

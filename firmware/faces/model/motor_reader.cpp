@@ -25,6 +25,11 @@ constexpr std::array<Turn, 8> kUsual{kPosition, kVelocity, kPosition, kTorque,
 /// For who looks at a trend: no more reads, and the torque as often as the position.
 constexpr std::array<Turn, 7> kTrend{kPosition, kVelocity, kTorque, kPosition, kVelocity, kTorque, kOther};
 
+/// The motor's one access is the port's or an activation's.
+bool is_taken(gateway::Controller& controller) {
+    return controller.user_port().awaits_motor() || controller.registers().asks_motor();
+}
+
 std::int32_t signed_value(const registers::Register& reg, std::uint32_t value) {
     if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(value);
     return reg.min < 0 ? static_cast<std::int16_t>(value) : static_cast<std::uint16_t>(value);
@@ -53,7 +58,7 @@ void MotorReader::forget() {
 }
 
 void MotorReader::drop(gateway::Controller& controller) {
-    if (asked_ && !controller.user_port().awaits_motor()) controller.motor().drop_access();
+    if (asked_ && !is_taken(controller)) controller.motor().drop_access();
     asked_ = false;
     wanted_.reset();
     item_.reset();
@@ -72,14 +77,14 @@ MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Inst
         return State::failed;
     }
     if (asked_) return take(controller, now);
-    if (!controller.user_port().awaits_motor() && now - ended_ >= pause(controller))
+    if (!is_taken(controller) && now - ended_ >= pause(controller))
         asked_ = controller.motor().begin_access(*wanted_);
     return State::under_way;
 }
 
 /// A failed or dropped write may have been executed: it is not repeated.
 MotorReader::State MotorReader::take(gateway::Controller& controller, base::Instant now) {
-    const bool lost = controller.user_port().awaits_motor();
+    const bool lost = is_taken(controller);
     const motor::AccessState state = controller.motor().access_state();
     if (!lost && motor::is_open(state)) return State::under_way;
     asked_ = false;

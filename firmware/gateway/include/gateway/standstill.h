@@ -16,7 +16,7 @@ class Standstill {
     explicit Standstill(motor::Motor& motor) : motor_(motor) {}
 
     void begin(base::Instant now);
-    /// done, moving, or link_down (also without an answer).
+    /// done, moving, or link_down: no answer within 1 s, in which a link may still come up.
     Progress poll(base::Instant now);
     /// Latest time of the next poll if the motor's driver has nothing new.
     base::Instant next_poll(base::Instant now) const;
