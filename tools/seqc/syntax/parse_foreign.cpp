@@ -24,11 +24,6 @@ bool is_one(const Token& t) {
     return same_name(t.text, "TRUE") || t.text == "1";
 }
 
-bool is_one_of(const Token& t, std::initializer_list<std::string_view> words) {
-    return t.kind == TokenKind::identifier &&
-           std::any_of(words.begin(), words.end(), [&](std::string_view w) { return same_name(t.text, w); });
-}
-
 }  // namespace
 
 /// END IF, END STEP: both words are read as one keyword.

@@ -8,7 +8,7 @@ namespace nplc::seqc {
 
 /// IF (NOT Warm FOR 1 s) OR Rain THEN; IF FOR 200 ms Warm THEN
 bool Parser::refuse_misplaced_time() {
-    if (in_property_ || !(at("FOR") || at("WITHIN"))) return false;
+    if (in_property_ || !is_one_of(token(), {"FOR", "WITHIN"})) return false;
     const Token first = token();
     ++at_;
     ast::Value time;
@@ -24,7 +24,7 @@ bool Parser::refuse_misplaced_time() {
 
 /// NEXT := Hold; WITHIN T#3s ELSE
 bool Parser::refuse_time_as_statement() {
-    if (!at("WITHIN")) return false;
+    if (!is_one_of(token(), {"WITHIN"})) return false;
     report_.add("E010", token().span, "WITHIN stands behind the condition, before THEN",
                 "write IF condition WITHIN T#3s THEN NEXT := Step; ELSE NEXT := Fault; END_IF");
     return true;
@@ -32,7 +32,7 @@ bool Parser::refuse_time_as_statement() {
 
 /// SET Lamp WHEN Shut;
 bool Parser::refuse_condition_of_set(const ast::Statement& statement) {
-    if (!at("WHEN") && !at("IF")) return false;
+    if (!is_one_of(token(), {"WHEN", "IF"})) return false;
     const std::string word = upper(statement.name.text);
     report_.add("E010", token().span, fmt::format("{} has no condition of its own", word),
                 fmt::format("write IF condition THEN {} Name; NEXT := Step; END_IF; an output that follows a "
@@ -43,7 +43,7 @@ bool Parser::refuse_condition_of_set(const ast::Statement& statement) {
 
 /// OUT SET Lamp;
 bool Parser::refuse_out_of_set() {
-    if (!(at("SET") || at("RESET")) || !is_word_at(1)) return false;
+    if (!is_one_of(token(), {"SET", "RESET"}) || !is_word_at(1)) return false;
     const std::string word = upper(token().text);
     report_.add("E010", token().span, fmt::format("{} stands without OUT", word),
                 fmt::format("write ENTRY {0} {1}; or {0} {1}; in a branch", word, token(1).text));
@@ -52,7 +52,7 @@ bool Parser::refuse_out_of_set() {
 
 /// OUT Lamp BLINK 1 s;
 void Parser::mend_blinking() {
-    if (!at("BLINK") && !at("BLINKS") && !at("FLASH") && !at("FLASHING")) return;
+    if (!is_one_of(token(), {"BLINK", "BLINKS", "FLASH", "FLASHING"})) return;
     report_.add("E010", token().span, "an output that blinks has the word BLINKING",
                 "write BLINKING T#500ms");
     tokens_[at_].text = "BLINKING";
@@ -60,18 +60,19 @@ void Parser::mend_blinking() {
 
 /// OUT Lamp BLINKING 1 s WHEN Shut;
 bool Parser::refuse_behind_blinking() {
-    if (!at("WHEN") && !at("IF") && !at("IN")) return false;
+    if (!is_one_of(token(), {"WHEN", "IF", "IN"})) return false;
+    const bool is_group = is_one_of(token(), {"IN"});
     report_.add(
         "E010", token().span,
-        at("IN") ? "an OUT for many steps cannot blink" : "an output that blinks follows no condition",
-        at("IN") ? "write OUT Lamp BLINKING T#500ms; in each of the steps"
+        is_group ? "an OUT for many steps cannot blink" : "an output that blinks follows no condition",
+        is_group ? "write OUT Lamp BLINKING T#500ms; in each of the steps"
                  : "let it blink in a step of its own, which a branch with the condition leads to");
     return true;
 }
 
 /// OUT Lamp BLINKING 1 s IN Moving; outside of steps
 bool Parser::refuse_blinking_group() {
-    if (!at("OUT")) return false;
+    if (!is_one_of(token(), {"OUT"})) return false;
     std::size_t ahead = 1;
     while (token(ahead).kind != TokenKind::end && !is_symbol_at(ahead, ";") &&
            !same_name(token(ahead).text, "BLINKING"))
@@ -91,7 +92,7 @@ bool Parser::refuse_blinking_group() {
 
 /// A SEQUENCE between STEP and END_STEP. Behind an unclosed step another STEP comes before END_STEP.
 bool Parser::refuse_sequence_inside() {
-    if (!at("SEQUENCE")) return false;
+    if (!is_one_of(token(), {"SEQUENCE"})) return false;
     std::size_t end = 1;
     while (token(end).kind != TokenKind::end && !same_name(token(end).text, "END_SEQUENCE")) ++end;
     if (token(end).kind == TokenKind::end) return false;
@@ -122,7 +123,7 @@ void Parser::mend_constant_block(ast::Program& program) {
 
 /// CNTRL_BITS := HICLK OR INPSIGN;
 bool Parser::refuse_or_of_bits() {
-    if (!at("OR") && !at_symbol("|")) return false;
+    if (!is_one_of(token(), {"OR"}) && !at_symbol("|")) return false;
     report_.add("E010", token().span, "bits of a register are joined with +", "write HICLK + INPSIGN");
     return true;
 }

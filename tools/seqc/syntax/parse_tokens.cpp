@@ -67,6 +67,11 @@ const Token& Parser::token(std::size_t ahead) const {
     return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
 }
 
+bool is_one_of(const Token& token, std::initializer_list<std::string_view> words) {
+    return token.kind == TokenKind::identifier &&
+           std::ranges::any_of(words, [&](std::string_view word) { return same_name(token.text, word); });
+}
+
 bool Parser::at(std::string_view word) const {
     if (is_place()) expected_->words.push_back(word);
     return token().kind == TokenKind::identifier && same_name(token().text, word);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,9 @@ struct Expected {
 
 /// The token that marks such a place; it matches nothing else.
 inline constexpr std::string_view kPlace = "";
+
+/// Whether the token is one of these words. For words that are wrong here: nothing is noted as expected.
+bool is_one_of(const Token& token, std::initializer_list<std::string_view> words);
 
 /// Parses a program's tokens. After an error it continues at the next statement, so that one run reports all
 /// errors.
