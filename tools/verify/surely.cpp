@@ -28,7 +28,7 @@ Levels with_free(Levels levels, std::uint8_t free) {
     constexpr std::array<Levels, 6> kOn = {0xAAAAAAAAAAAAAAAA, 0xCCCCCCCCCCCCCCCC, 0xF0F0F0F0F0F0F0F0,
                                            0xFF00FF00FF00FF00, 0xFFFF0000FFFF0000, 0xFFFFFFFF00000000};
     for (unsigned input = 0; input < kOn.size(); ++input) {
-        if (((free >> input) & 1U) == 0) continue;
+        if (((unsigned{free} >> input) & 1U) == 0) continue;
         const unsigned apart = 1U << input;
         levels |= ((levels & kOn[input]) >> apart) | ((levels & ~kOn[input]) << apart);
     }
