@@ -210,6 +210,7 @@ class FullDisk(SmallDisk):
         master = modbus_test.Master(modbus_test.port_of(service.said().partition("Modbus: listens")[2]))
         self.addCleanup(master.client.close)
         self.until(lambda: not master.inputs(210, 2).isError())
+        self.until(lambda: master.status(1))  # the run goes on when the motor answers
         self.fill()
         self.assertFalse(master.write(0, 0, 0).isError())
         for number in range(1, 21):  # whatever room its own file still has
