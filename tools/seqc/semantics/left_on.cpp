@@ -35,7 +35,7 @@ struct OnState {
 };
 
 bool has_bit(std::uint8_t outputs, std::size_t output) {
-    return ((outputs >> output) & 1U) != 0;
+    return ((unsigned{outputs} >> output) & 1U) != 0;
 }
 
 class OnWalk {
