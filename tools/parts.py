@@ -36,7 +36,8 @@ PARTS = {
     "plant": ((), "release"),
 }
 LABELS = {"sanitizers": "gate|thorough", "sanitized-realtime": "realtime|terminals"}
-ONCE_MORE = {"realtime", "terminals", "sanitized-realtime", "browser", "plant"}
+ONE_AT_A_TIME = {"realtime", "terminals", "sanitized-realtime", "browser", "plant"}
+ONCE_MORE = ONE_AT_A_TIME | {"mcu", "board", "emulated", "packages"}  # a machine that is emulated in real time beside others
 TOO_LONG = 900  # seconds of the gate's tests: a warning
 SLOWEST = 10
 
@@ -76,7 +77,7 @@ def named(names):
 
 def ctest(part, xml_path, log, *arguments):
     where = PARTS[part][1]
-    parallel = [] if part in ONCE_MORE else ["--parallel", str(os.cpu_count())]
+    parallel = [] if part in ONE_AT_A_TIME else ["--parallel", str(os.cpu_count())]
     label = "^(" + LABELS.get(part, part) + ")$"
     command = ["ctest", "--test-dir", os.path.join(ROOT, "build", where), "--output-on-failure", "--no-tests=error",
                "--output-junit", xml_path, "-L", label, *parallel, *arguments]
@@ -119,7 +120,7 @@ def run(part, only_failed, arguments):
         if failed and part in ONCE_MORE:
             again = xml_path.removesuffix(".xml") + "-again.xml"
             print(f"== {part}: once more: {', '.join(failed)}", flush=True)
-            ctest(part, again, log, "-R", named(failed))
+            ctest(part, again, log, "-R", named(failed), "--parallel", "1")
             result.again = [name for name, status, _, _ in cases(again) if status == "run"]
         result.failed = [name for name in failed if name not in result.again]
     result.seconds = time.monotonic() - built
