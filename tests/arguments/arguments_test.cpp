@@ -205,6 +205,7 @@ TEST(Arguments, HelpOfACommandIsWhatItSaysWithHelp) {
     EXPECT_EQ(help({"help", "group"}), help({"group", "--help"}));
     EXPECT_EQ(help({"help", "group", "inner"}), help({"group", "inner", "--help"}));
     EXPECT_NE(help({"help", "group", "inner"}).find("Of the inner one"), std::string::npos);
+    EXPECT_EQ(help({"help", "--help"}), help({"help", "help"}));
     EXPECT_EQ(parsed(app, {"help", "gruop"}).error, "'gruop' is no command; did you mean 'group'?");
     EXPECT_EQ(parsed(app, {"help", "group", "iner"}).error, "'iner' is no command; did you mean 'inner'?");
 }

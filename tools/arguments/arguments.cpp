@@ -285,7 +285,8 @@ std::string App::what_is_wrong(const std::string& error) const {
 }
 
 ParseResult App::parse(int argc, const char* const* argv) {
-    if (parts_->help && argc > 1 && std::string_view(argv[1]) == "help")
+    const bool names_one = argc < 3 || !std::string_view(argv[2]).starts_with('-');
+    if (parts_->help && argc > 1 && std::string_view(argv[1]) == "help" && names_one)
         return help_of({argv + 2, argv + argc});
     try {
         parts_->app->parse(argc, argv);
