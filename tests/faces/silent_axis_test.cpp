@@ -143,7 +143,8 @@ TEST_F(SilentAxis, APlcIsAnswered) {
     const std::array<std::uint8_t, 5> stop{5, 0, modbus::kStop, 0xFF, 0};
     ASSERT_FALSE(session.serve(1, stop, {.now = now(), .arrived = now()}));
     std::optional<modbus::Answer> answer;
-    for (const auto end = now() + kLongestAnswer; !answer && now() < end; halt(20ms)) answer = session.take(now());
+    for (const auto end = now() + kLongestAnswer; !answer && now() < end; halt(20ms))
+        answer = session.take(now());
     ASSERT_TRUE(answer);
     ASSERT_EQ(answer->bytes().size(), 2U);
     EXPECT_EQ(answer->bytes()[0], 0x85);
