@@ -80,6 +80,11 @@ class SocketConnections final : public Connections {
         return {bytes, count == 0 || hung_up != 0 ? State::hears : State::open};
     }
 
+    bool is_open(Id id) const override {
+        const auto client = clients_.find(id);
+        return client != clients_.end() && !client->second.has_ended && hang_up(client->second.socket) == 0;
+    }
+
     std::optional<std::size_t> write(Id id, std::span<const std::uint8_t> bytes) override {
         const auto client = clients_.find(id);
         if (client == clients_.end()) return std::nullopt;
@@ -166,14 +171,16 @@ class TerminalConnections final : public Connections {
     }
     Peer peer(Id) const override { return {}; }
     std::vector<Id> with_news() override { return is_there_ ? std::vector{last_} : std::vector<Id>{}; }
+    /// One that closed it while it was read has left; what it still sent is read the next time.
     Got read(Id client, std::span<std::uint8_t> out) override {
         if (!is_there_ || client != last_) return {0, State::gone};
-        const bool is_open = terminal_->has_client();
+        const bool was_open = terminal_->has_client();
         const std::size_t count = terminal_->read(out);
-        if (is_open) return {count, State::open};
+        if (was_open) return {count, terminal_->has_client() ? State::open : State::hears};
         is_there_ = count == out.size();
         return {count, count == 0 ? State::gone : State::hears};
     }
+    bool is_open(Id client) const override { return is_there_ && client == last_ && terminal_->has_client(); }
     std::optional<std::size_t> write(Id client, std::span<const std::uint8_t> bytes) override {
         if (is_there_ && client == last_) terminal_->write(bytes);
         return bytes.size();

@@ -100,4 +100,9 @@ FileStorage::Opened FileStorage::open(const std::string& path, const ports::Stor
     return {std::make_unique<DiskStorage>(std::move(file), geometry), {}};
 }
 
+bool FileStorage::is_held(const std::string& path) {
+    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    return file && ::flock(file.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 }  // namespace nplc::hal_linux

@@ -16,6 +16,7 @@
 #include "hal_linux/connections.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/key_reader.h"
+#include "hal_linux/steady_clock.h"
 #include "host/printable.h"
 #include "host/terminal.h"
 #include "input_file.h"
@@ -142,7 +143,7 @@ class Door {
         if (!opened.connections) throw InputError("--mactalk " + opened.error);
         connections_ = std::move(opened.connections);
         listener_.emplace(boards::Listener::Options{.name = connections_->name(), .operators = &operators});
-        exchange_.emplace(*connections_, *listener_);
+        exchange_.emplace(*connections_, *listener_, &clock_);
     }
     bool is_open() const { return exchange_.has_value(); }
     void announce() const {
@@ -154,17 +155,15 @@ class Door {
         World& world = session.world();
         if (std::exchange(starts_, world.starts()) != world.starts()) listener_->restarted();
         listener_->set_addresses({world.gateway_address(), world.motor_address()});
-        exchange_->bring(world.controller(), now(), world.instant());
+        exchange_->bring(world.controller(), clock_.now(), world.instant());
     }
     void hand_out(Session& session) {
-        if (is_open()) exchange_->take_back(session.world().controller(), now(), session.world().instant());
+        if (is_open())
+            exchange_->take_back(session.world().controller(), clock_.now(), session.world().instant());
     }
 
   private:
-    static base::Instant now() {
-        return base::Instant(std::chrono::duration_cast<base::Microseconds>(Clock::now().time_since_epoch()));
-    }
-
+    hal_linux::SteadyClock clock_;
     std::unique_ptr<hal_linux::Connections> connections_;
     std::optional<boards::Listener> listener_;
     std::optional<boards::Exchange> exchange_;

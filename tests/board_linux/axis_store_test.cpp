@@ -206,6 +206,21 @@ TEST_F(AxisStoreTest, APowerCutAfterACrashIsStillACrash) {
     EXPECT_EQ(note_crash(folder("nowhere")), "");
 }
 
+TEST_F(AxisStoreTest, ARunningServiceIsNotNotedAsCrashed) {
+    command_run_once();
+    {
+        Run run = start();
+        const std::string before = content(mark());
+        EXPECT_TRUE(is_in_use(folder()));
+        EXPECT_NE(note_crash(folder()), "");
+        EXPECT_EQ(content(mark()), before);
+        run.end();
+    }
+    EXPECT_FALSE(is_in_use(folder()));
+    EXPECT_FALSE(is_in_use(folder("nowhere")));
+    EXPECT_EQ(start_and_end(), given);
+}
+
 TEST_F(AxisStoreTest, AnEndWithTheMotorUnstoppedWaitsInTheNextBootToo) {
     command_run_once();
     {

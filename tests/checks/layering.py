@@ -59,7 +59,7 @@ MODULES = [
         ("base", "ports", "hal_mcu", "motor", "store", "gateway", "update"),
         core=True,
     ),
-    Module("firmware/boards/listener", "listener", ("base", "gateway", "protocol", "registers", "hal_linux", "seat")),
+    Module("firmware/boards/listener", "listener", ("base", "ports", "gateway", "protocol", "registers", "hal_linux", "seat")),
     Module("firmware/faces/seat", "seat", ("base", "registers")),
     Module(
         "firmware/faces/model",

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import termios
+import tty
 import unittest
 
 from noisy_proxy import NoisyProxy
@@ -149,6 +150,29 @@ class Registers(Case):
         self.assertIn("safe exit", refused["reason"])
         self.reg("safe", "exit")
         self.assertEqual(self.reg("set", "MODE_REG", "P_MODE")["registers"][0]["raw"], 2)
+
+    def test_a_stop_on_a_line_that_does_not_answer(self):
+        """52h: a write. It is sent before any question, and said not to be confirmed."""
+        for options, first in ((("--address", "8"), "52 52 52 08 F7 02 FD 02 FD 00 FF 00 FF"), ((), "52 52 52 FF 00 02 FD 02 FD 00 FF 00 FF"),
+                               (("--address", "8", "--model", "MAC800"), "52 52 52 08 F7 02 FD 04 FB 00 FF 00 FF 00 FF 00 FF")):
+            master, slave = pty.openpty()
+            tty.setraw(slave)
+            first = bytes.fromhex(first)
+            result = self.call(*options, "set", "MODE_REG", "INIT_MODE", port=os.ttyname(slave), patience=50)
+            self.assertEqual(os.read(master, 4096)[:len(first)], first)
+            self.assertEqual(result.returncode, 3)
+            self.assertIn("the stop was sent, but not confirmed: the motor may be moving", result.stderr)
+            os.close(slave)
+            os.close(master)
+
+    def test_a_stop_is_read_back(self):
+        for model in ("MAC140", "MAC800"):
+            motor = self.motor(model=model)
+            self.reg("set", "MODE_REG", "P_MODE")
+            self.assertIn("MODE_REG = INIT_MODE (raw 0)", self.call("set", "MODE_REG", "INIT_MODE").stdout)
+            self.assertEqual(self.value("MODE_REG"), 0)
+            motor.terminate()
+            motor.wait()
 
     def test_a_mac800_is_known_by_itself(self):
         self.motor(model="MAC800")

@@ -14,7 +14,7 @@ import unittest
 
 import program_case
 import service_case
-from patience import until
+from patience import halt, until
 
 # Debian's packages, whichever Python this is.
 sys.path.append("/usr/lib/python3/dist-packages")
@@ -141,7 +141,7 @@ class OnALine(service_case.ServiceCase):
         until(lambda: self.state(RUNNING), "running")
         self.assertEqual(self.ask(10, 16, 0, 0, 0, 2, 4, 0, 2, 0, 0, size=8), frame(10, 16, 0, 0, 0, 2))
         self.assertTrue(self.state(IS_SAFE))
-        os.kill(service.process.pid, signal.SIGSTOP)
+        halt(service.process.pid)
         self.send(frame(10, 16, 0, 0, 0, 2, 4, 0, 1, 0, 1))  # run
         self.assertEqual(self.hear(1, patience=1.6), b"")
         os.kill(service.process.pid, signal.SIGCONT)

@@ -19,7 +19,7 @@ import zlib
 
 import program_case
 import service_case
-from patience import until
+from patience import halt, until
 
 # Debian's packages, whichever Python this is.
 sys.path.append("/usr/lib/python3/dist-packages")
@@ -383,7 +383,7 @@ class Served(service_case.ServiceCase):
         request = struct.pack(">HHHBBHHBHH", 1, 0, 11, 1, 16, 0, 2, 4, RUN, 1)
         with socket.create_connection(("127.0.0.1", master.port)) as late:
             late.settimeout(1.6)
-            service.process.send_signal(signal.SIGSTOP)
+            halt(service.process.pid)
             late.sendall(request)
             with self.assertRaises(TimeoutError):
                 late.recv(1)

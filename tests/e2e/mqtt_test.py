@@ -17,6 +17,7 @@ import unittest
 import certificates
 import program_case
 import service_case
+from patience import halt
 from sparkplug_host import Broker, Host, command, values
 
 SIM = SHUTTLE = EXAMPLES = ""
@@ -245,7 +246,7 @@ class Served(service_case.ServiceCase, Case):
         self.wait_value(host, "x", "running", lambda metric: metric.value is True)
         host.tell("DCMD", "x", command("Command/stop"), node="cell")
         self.until_status(lambda status: status["safe_reason"] == "stop command")
-        service.process.send_signal(signal.SIGSTOP)
+        halt(service.process.pid)
         host.tell("DCMD", "x", command("Command/run"), node="cell")
         time.sleep(1.6)
         service.process.send_signal(signal.SIGCONT)

@@ -107,6 +107,19 @@ class Mark(Stored):
         result = subprocess.run([service_case.NANOPLC, "note-end", config], capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stdout + result.stderr), (0, ""))
 
+    def test_note_end_beside_a_service_does_nothing(self):
+        config = self.stored_run()
+        service = self.start(config)
+        self.moves()
+        with open(self.mark, "rb") as file:
+            before = file.read()
+        result = subprocess.run([service_case.NANOPLC, "note-end", config], capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stdout, result.stderr.count("\n")), (3, "", 1))
+        self.assertIn("a service uses this store", result.stderr)
+        with open(self.mark, "rb") as file:
+            self.assertEqual(file.read(), before)
+        self.assertEqual(self.end(service), 0)
+
     def test_a_power_cut_after_a_crash_is_still_a_crash(self):
         config = self.stored_run()
         self.crash(config)

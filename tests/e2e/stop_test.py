@@ -20,6 +20,7 @@ import unittest
 import service_case
 import simulator
 from macsim_test import read_request, value_in, write_request
+from patience import halt
 from service_case import LONG, ServiceCase
 
 SIM = ""
@@ -279,7 +280,7 @@ class Late:
     """What waited longer than a second to be read, or whose sender has gone, starts nothing; a stop is obeyed."""
 
     def halted(self):
-        self.gateway.send_signal(signal.SIGSTOP)
+        halt(self.gateway.pid)
 
     def goes_on(self, seconds=HALTED):
         time.sleep(seconds)
@@ -392,7 +393,7 @@ class OnASerialLine(ServiceCase):
         return self.read(STATUS) & 7
 
     def sent_while_halted(self, data):
-        self.service.send_signal(signal.SIGSTOP)
+        halt(self.service.pid)
         os.write(self.master, data)
         time.sleep(HALTED)
         self.service.send_signal(signal.SIGCONT)
@@ -471,7 +472,7 @@ class Terminal(Watching):
 
     def test_a_run_of_a_client_that_has_gone(self):
         self.nanoctl("stop")
-        self.gateway.send_signal(signal.SIGSTOP)
+        halt(self.gateway.pid)
         with open(self.path("x"), "r+b", buffering=0) as line:
             line.write(order(RUN))
         time.sleep(0.2)
@@ -483,7 +484,7 @@ class Terminal(Watching):
         self.nanoctl("stop")
         with open(self.path("x"), "r+b", buffering=0) as line:
             tty.setraw(line)
-            self.gateway.send_signal(signal.SIGSTOP)
+            halt(self.gateway.pid)
             line.write(order(RUN))
             time.sleep(HALTED)
             self.gateway.send_signal(signal.SIGCONT)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -78,6 +80,25 @@ TEST_F(ConnectionsTest, WhatAClientSentIsReadThoughItHasGone) {
     EXPECT_EQ(heard(*connections, id), std::pair(std::string(), State::gone));
     EXPECT_EQ(heard(*connections, id).second, State::gone) << "and its Id is nobody's";
     EXPECT_EQ(connections->write(id, kAnswer), std::nullopt);
+}
+
+TEST_F(ConnectionsTest, WhetherAClientIsThereIsSeenBeforeAllItSentIsRead) {
+    for (const char* kind : {"unix:", "pty:"}) {
+        const auto connections = open(kind + path());
+        const bool is_terminal = std::string(kind) == "pty:";
+        const int client = is_terminal ? ::open(path().c_str(), O_RDWR | O_NOCTTY) : connect_unix(path());
+        ASSERT_GE(client, 0);
+        write_to(client, "run");
+        const auto id = let_in(*connections);
+        EXPECT_TRUE(connections->is_open(id));
+        EXPECT_EQ(heard(*connections, id), std::pair(std::string("run"), State::open));
+        write_to(client, "run");
+        ::close(client);
+        EXPECT_FALSE(connections->is_open(id));
+        EXPECT_EQ(heard(*connections, id), std::pair(std::string("run"), State::hears));
+        EXPECT_FALSE(connections->is_open(id));
+        EXPECT_FALSE(connections->is_open(id + 1));
+    }
 }
 
 TEST_F(ConnectionsTest, WhoHasOnlyEndedSendingStillHears) {

@@ -27,6 +27,61 @@ TEST_F(ChangeTest, TellsBeforeAndAfter) {
     EXPECT_EQ(outcome.after, 3146);
 }
 
+/// A line that is cut in a direction.
+constexpr sim::LineFaults kCut{.drop = 1};
+
+// 001 §5.1: 52h, the register, the length of a word, the value, each with its complement.
+TEST_F(ChangeTest, AStopIsSentBeforeAnythingIsAsked) {
+    bench.put("MODE_REG", 2);
+    const ChangeResult outcome = set("MODE_REG", 0);
+    EXPECT_TRUE(outcome.taken);
+    EXPECT_FALSE(outcome.before.has_value());
+    const std::vector<std::uint8_t> kWrite{0x52, 0x52, 0x52, 8, 0xF7, 2, 0xFD, 2, 0xFD, 0, 0xFF, 0, 0xFF};
+    ASSERT_GE(bench.wire.sent().size(), kWrite.size());
+    EXPECT_TRUE(std::equal(kWrite.begin(), kWrite.end(), bench.wire.sent().begin()));
+}
+
+TEST_F(ChangeTest, AMotorThatIsNotHeardIsStopped) {
+    bench.put("MODE_REG", 2);
+    bench.wire.from_unit().set_faults(kCut);
+    try {
+        set("MODE_REG", 0);
+        FAIL() << "nothing confirmed it";
+    } catch (const mactalk_client::LineError& error) {
+        EXPECT_NE(std::string(error.what()).find(kMayMove), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(bench.at("MODE_REG"), 0);
+}
+
+// R: a MAC800 takes longwords only; a longword on the others would change P_SOLL, too.
+TEST(Change, AStopOfAnUnknownMotorChangesNoOtherRegister) {
+    for (const auto model : {registers::Model::mac140, registers::Model::mac800}) {
+        Bench bench(model);
+        bench.put("V_SOLL", 0);  // it stands
+        bench.put("P_SOLL", 0x12345678);
+        bench.put("MODE_REG", 2);
+        const bool is_large = model == registers::Model::mac800;
+        EXPECT_EQ(stop_unasked(bench.master, kAddress, std::nullopt, 0, 2), !is_large);
+        bench.run(1'000ms);
+        EXPECT_EQ(bench.at("MODE_REG"), is_large ? 2 : 0);
+        EXPECT_TRUE(stop_unasked(bench.master, kAddress, model, 0, 2));
+        bench.run(1'000ms);
+        EXPECT_EQ(bench.at("MODE_REG"), 0);
+        EXPECT_EQ(bench.at("P_SOLL"), 0x12345678);
+    }
+}
+
+TEST(Change, WhatIsAStop) {
+    using registers::Model;
+    const auto mode = [](Model model) { return *registers::find(model, registers::MODE_REG); };
+    EXPECT_TRUE(is_stop(Model::mac140, mode(Model::mac140), 0));
+    EXPECT_TRUE(is_stop(Model::mac140, mode(Model::mac140), 11));
+    EXPECT_FALSE(is_stop(Model::mac140, mode(Model::mac140), 2));
+    EXPECT_TRUE(is_stop(Model::mac800, mode(Model::mac800), 0));
+    EXPECT_FALSE(is_stop(Model::mac800, mode(Model::mac800), 11)) << "004: reserved";
+    EXPECT_FALSE(is_stop(Model::mac140, *registers::find(Model::mac140, registers::V_SOLL), 0));
+}
+
 // 001 §3.2.43: the pointer becomes 0 when the copy is made.
 TEST_F(ChangeTest, APointerThatWasServedIsTaken) {
     EXPECT_TRUE(set("P_REG_P", 1).taken);

@@ -279,6 +279,71 @@ TEST(Client, WhoseConnectionsAreAllClosedIsToldAfterTenSeconds) {
     EXPECT_LE(bench.wire.now() - begun, std::chrono::seconds{11});
 }
 
+/// A wire whose far end stops to answer, or on which others are heard.
+class DisturbedWire final : public host::ByteClient {
+  public:
+    explicit DisturbedWire(SimWire& wire) : wire_(wire) {}
+    const std::string& name() const override { return wire_.name(); }
+    bool write(std::span<const std::uint8_t> bytes) override { return swallows(bytes) || wire_.write(bytes); }
+    std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) override {
+        const auto count = wire_.read(out, others_talk ? std::chrono::milliseconds{1} : wait);
+        if (!others_talk || count != std::size_t{0} || out.empty()) return count;
+        out.front() = 0x11;  // of an accept
+        return 1;
+    }
+    base::Instant now() const override { return wire_.now(); }
+
+    std::function<bool(std::span<const std::uint8_t>)> swallows = [](auto) { return false; };
+    bool others_talk = false;
+
+  private:
+    SimWire& wire_;
+};
+
+struct Disturbed : testing::Test {
+    /// How long it takes until it says that it is not confirmed.
+    base::Microseconds time_until_told() {
+        const base::Instant begun = bench.wire.now();
+        EXPECT_THROW(stop_machine(stopper, Command::stop), NotConfirmed);
+        return bench.wire.now() - begun;
+    }
+
+    Bench bench;
+    DisturbedWire wire{bench.wire};
+    Master client{wire, {.patience = std::chrono::milliseconds{500}, .attempts = 10}};
+    GatewayClient stopper{client, gw::kDefaultAddress};
+};
+
+TEST_F(Disturbed, AMotorThatDoesNotConfirmIsToldThoughNoMoreAnswersCome) {
+    bench.run_a_table();
+    bench.unit.board.stop_is_confirmed = false;
+    int looks = 0;
+    stopper.set_goes_on([&] {
+        if (++looks == 3) bench.wire.from_unit().cut();
+        return true;
+    });
+    EXPECT_LT(time_until_told(), std::chrono::milliseconds{2'000}) << "1 s for the motor, and 1 s";
+}
+
+// 50h: register 1, IDENTITY, is read last.
+TEST_F(Disturbed, AStopThatIsDoneDoesNotWaitLongForTheGatewaysName) {
+    bench.run_a_table();
+    wire.swallows = [](std::span<const std::uint8_t> bytes) {
+        return bytes[0] == 0x50 && bytes[3] == 128 && bytes[5] == gw::IDENTITY;
+    };
+    EXPECT_LT(time_until_told(), std::chrono::milliseconds{1'500});
+}
+
+TEST_F(Disturbed, WhereOthersTalkWithoutAPauseItEndsAtItsDeadline) {
+    bench.run_a_table();
+    stop_machine(bench.gateway, Command::stop);
+    bench.wire.from_unit().cut();
+    wire.others_talk = true;
+    const base::Microseconds time = time_until_told();
+    EXPECT_GE(time, kLongestStop);
+    EXPECT_LT(time, kLongestStop + std::chrono::seconds{1});
+}
+
 // Longer than the look at STATUS takes: what is asked again and again would never be confirmed.
 TEST(Client, TheMotorsConfirmationIsWaitedForAndAskedForOnce) {
     Bench bench;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <functional>
 #include <map>
 #include <random>
 
@@ -27,6 +28,7 @@ class VirtualSockets final : public Connections {
         Bytes heard{};
         bool reads = true;
         bool closed_there = false;  ///< by its client
+        bool closes_when_read = false;
         bool closed_here = false;
     };
 
@@ -41,6 +43,7 @@ class VirtualSockets final : public Connections {
         if (buffer.size() + bytes.size() <= kBuffer) buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     }
     void forget(Id id) { sockets_.erase(id); }
+    std::function<void(Id)> when_read{};
     std::size_t taken() { return std::exchange(taken_, 0); }
 
     const std::string& name() const override { return name_; }
@@ -67,9 +70,17 @@ class VirtualSockets final : public Connections {
         std::copy_n(socket.sent.begin(), count, out.begin());
         socket.sent.erase(socket.sent.begin(), socket.sent.begin() + static_cast<std::ptrdiff_t>(count));
         taken_ += count;
-        if (!socket.closed_there) return {count, State::open};
+        if (when_read) when_read(id);
+        if (!socket.closed_there) {
+            socket.closed_there = socket.closes_when_read && count != 0;
+            return {count, State::open};
+        }
         if (count == 0) close(id);
         return {count, count == 0 ? State::gone : State::hears};
+    }
+    bool is_open(Id id) const override {
+        const auto socket = sockets_.find(id);
+        return socket != sockets_.end() && !socket->second.closed_there;
     }
     std::optional<std::size_t> write(Id id, std::span<const std::uint8_t> bytes) override {
         Socket& socket = sockets_.at(id);
@@ -213,6 +224,57 @@ TEST(ListenerFlood, AStopTakesEffectWithinASecondBeside200Clients) {
         worst = std::max(worst, time);
     }
     std::printf("the slowest of all stops took %.1f ms\n", static_cast<double>(worst.count()) / 1000);
+}
+
+/// It had not begun when its client closed the connection.
+TEST(Departed, ARunIsNotCarriedOutOfAClientThatClosesAsItIsRead) {
+    for (const bool closes : {false, true}) {
+        Crowd crowd(1, Listener::kMostClients);
+        crowd.go_on(100ms);
+        crowd.world.controller().sequence().stop(crowd.world.instant());
+        crowd.go_on(200ms);
+        ASSERT_EQ(crowd.state(), gateway::RunState::stopped);
+        const Connections::Id starter = crowd.sockets.connect();
+        crowd.sockets[starter].closes_when_read = closes;
+        crowd.sockets.send(starter, order(kRun));
+        crowd.go_on(100ms);
+        EXPECT_EQ(crowd.state() == gateway::RunState::stopped, closes);
+    }
+}
+
+/// Between the time that the loop took and the look at its clients.
+TEST(Halted, ARunThatWaitedMeanwhileIsNotCarriedOutThoughTheLoopsTimeIsOld) {
+    struct WallClock final : ports::Clock {
+        base::Instant now() override { return time; }
+        base::Instant time{};
+    };
+    for (const base::Microseconds halt : {500ms, 1'500ms}) {
+        Crowd crowd(1, Listener::kMostClients);
+        crowd.go_on(100ms);
+        crowd.world.controller().sequence().stop(crowd.world.instant());
+        crowd.go_on(200ms);
+        WallClock clock;
+        clock.time = crowd.world.instant();
+        Exchange exchange(crowd.sockets, crowd.listener, &clock);
+        const Connections::Id starter = crowd.sockets.connect();
+        crowd.sockets.when_read = [&](Connections::Id) { clock.time += halt; };
+        crowd.sockets.send(starter, order(kRun));
+        exchange.bring(crowd.world.controller(), crowd.world.instant(), crowd.world.instant());
+        crowd.sockets.when_read = {};
+        crowd.go_on(100ms);
+        EXPECT_EQ(crowd.state() == gateway::RunState::stopped, halt > Listener::kLongestUnread);
+    }
+}
+
+TEST(Departed, AStopIs) {
+    Crowd crowd(1, Listener::kMostClients);
+    crowd.go_on(300ms);
+    ASSERT_EQ(crowd.state(), gateway::RunState::running);
+    const Connections::Id stopper = crowd.sockets.connect();
+    crowd.sockets[stopper].closes_when_read = true;
+    crowd.sockets.send(stopper, order(kStop));
+    crowd.go_on(100ms);
+    EXPECT_EQ(crowd.state(), gateway::RunState::stopped);
 }
 
 /// 300 of them kept a stopped gateway busy for 18 s.

@@ -295,6 +295,19 @@ TEST_F(ListenerTest, WhatAClientSentThatHasLeftIsRefusedButForStops) {
     EXPECT_EQ(handed(), order(kStop));
 }
 
+TEST_F(ListenerTest, WhoIsNoMoreThereWhenItsTurnComesStartsNothing) {
+    bool is_there = true;
+    listener.ask_who_is_there([&](Listener::Id who) { return is_there || who != client(0); });
+    send(0, order(kRun));
+    is_there = false;
+    EXPECT_EQ(handed(), Bytes());
+    send(0, order(kStop));
+    EXPECT_EQ(handed(), order(kStop));
+    answer(kAccept);
+    send(1, order(kRun));
+    EXPECT_EQ(handed(), order(kRun));
+}
+
 TEST_F(ListenerTest, AClientThatSendsNoMoreIsAnsweredAndGoes) {
     give(0, read_of(16));
     listener.left(client(0));

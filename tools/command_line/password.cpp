@@ -39,6 +39,21 @@ bool is_wanted(mactalk_client::Master& master, std::uint8_t gateway) {
     }
 }
 
+void give(std::span<const std::uint8_t> password, const Common& common, std::uint8_t gateway,
+          host::ByteClient& wire) {
+    if (password.empty()) return;
+    mactalk_client::Master master(
+        wire,
+        {.baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts});
+    for (unsigned i = 0; i < kAttempts && is_wanted(master, gateway); ++i) {
+        if (master.try_write_long(gateway, gw::PASSWORD, password)) break;
+        const auto result = static_cast<gw::Result>(master.read(gateway, gw::RESULT) & 0xFF);
+        if (result == gw::Result::no_password)
+            throw Failure(kRefused, fmt::format("{}: the password of {} is not this port's", wire.name(),
+                                                common.password_file));
+    }
+}
+
 }  // namespace
 
 std::unique_ptr<host::ByteClient> open_with_password(const Common& common, std::uint8_t gateway,
@@ -46,18 +61,11 @@ std::unique_ptr<host::ByteClient> open_with_password(const Common& common, std::
     std::vector<std::uint8_t> password;
     if (!common.password_file.empty()) password = password_of(common.password_file);
     auto wire = open_port(common, holding);
-    if (password.empty()) return wire;
-    mactalk_client::Master master(
-        *wire,
-        {.baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts});
-    for (unsigned i = 0; i < kAttempts && is_wanted(master, gateway); ++i) {
-        if (master.try_write_long(gateway, gw::PASSWORD, password)) break;
-        const auto result = static_cast<gw::Result>(master.read(gateway, gw::RESULT) & 0xFF);
-        if (result == gw::Result::no_password)
-            throw Failure(kRefused, fmt::format("{}: the password of {} is not this port's", wire->name(),
-                                                common.password_file));
-    }
+    give(password, common, gateway, *wire);
     return wire;
 }
 
+void give_password(const Common& common, std::uint8_t gateway, host::ByteClient& wire) {
+    if (!common.password_file.empty()) give(password_of(common.password_file), common, gateway, wire);
+}
 }  // namespace nplc::command_line

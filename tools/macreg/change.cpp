@@ -124,8 +124,8 @@ std::string why_not(Motor& motor, const Register& reg, std::int64_t wanted, std:
     return "somebody else may have written it, or the motor has no such register";
 }
 
-ChangeResult refused_or_lost(Motor& motor, std::int64_t before, const LineError& error) {
-    ChangeResult outcome{.before = before, .after = before, .taken = false};
+ChangeResult refused_or_lost(Motor& motor, std::optional<std::int64_t> before, const LineError& error) {
+    ChangeResult outcome{.before = before, .after = before.value_or(0), .taken = false};
     outcome.why = error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::write) : "";
     if (outcome.why.empty()) throw LineError(error.kind(), error.what());
     return outcome;
@@ -167,13 +167,13 @@ void add_remark(ChangeResult& outcome, Motor& motor, const Register& reg, std::i
     }
     if (reg.number == registers::ERR_STAT) {
         const auto settings = static_cast<std::int64_t>(setting_bits(model, reg));
-        if (const std::int64_t lost = outcome.before & ~raw & settings; lost != 0)
-            outcome.remark =
-                fmt::format("{} was a setting and is off now; clearing errors alone leaves it: `{}`",
-                            bits_word(reg, model, lost), clear_errors_command(model, outcome.before));
+        if (const std::int64_t lost = outcome.before.value_or(0) & ~raw & settings; lost != 0)
+            outcome.remark = fmt::format(
+                "{} was a setting and is off now; clearing errors alone leaves it: `{}`",
+                bits_word(reg, model, lost), clear_errors_command(model, outcome.before.value_or(0)));
     }
     if (reg.number == registers::CNTRL_BITS && motor.model() != Model::mac800 &&
-        ((outcome.before ^ raw) & kAtResetOnly) != 0)
+        ((outcome.before.value_or(raw) ^ raw) & kAtResetOnly) != 0)
         outcome.remark =
             "the inputs' bits act after the next reset only, and are lost by it unless kept: `macreg flash "
             "save`";
@@ -198,6 +198,46 @@ Limits limits_of(const RawValues& now, const RawValues& wanted) {
 
 RawValues only(const RawValues& values, std::uint8_t number) {
     return {{number, values.at(number)}};
+}
+
+ChangeResult write_and_look(Motor& motor, const Register& reg, std::int64_t raw,
+                            std::optional<std::int64_t> before) {
+    const bool is_address = reg.number == address_register(motor.model()).number;
+    ChangeResult outcome{.before = before};
+    if (std::string none = no_mode(motor.model(), reg, raw); !none.empty())
+        return {.before = before, .after = before.value_or(0), .taken = false, .why = std::move(none)};
+    try {
+        motor.write(reg, raw);
+    } catch (const LineError& error) {
+        if (!is_address) return refused_or_lost(motor, outcome.before, error);
+    } catch (const Unconfirmed&) {
+        outcome.why = gateway_refusal(motor, Asked::write);
+        if (outcome.why.empty()) throw;
+        return {.before = before, .after = before.value_or(0), .taken = false, .why = outcome.why};
+    }
+    if (is_address) {
+        Motor moved(motor.master(), static_cast<std::uint8_t>(raw), motor.model());
+        outcome.after = moved.read(reg);
+        outcome.remark =
+            fmt::format("the motor answers to --address {} from now on; `macreg flash save` keeps it", raw);
+        return outcome;
+    }
+    outcome.after = motor.read(reg);
+    const std::int64_t passing = passing_bits(motor.model(), reg);
+    outcome.taken = is_pointer(reg) ? outcome.after == 0 : (outcome.after & ~passing) == (raw & ~passing);
+    if (!outcome.taken && runs_on(reg) && outcome.after != outcome.before) {
+        outcome.taken = true;
+        outcome.remark = "the motor goes on changing it";
+    }
+    if (const std::string ended =
+            reg.number == registers::MODE_REG ? ended_by_itself(raw, outcome.after) : "";
+        !outcome.taken && !ended.empty() && hindrance(motor, raw, outcome.after).empty()) {
+        outcome.taken = true;
+        outcome.remark = ended;
+    }
+    if (!outcome.taken) outcome.why = why_not(motor, reg, raw, outcome.after);
+    add_remark(outcome, motor, reg, raw);
+    return outcome;
 }
 
 }  // namespace
@@ -252,45 +292,30 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
            "why` of the motor";
 }
 
-ChangeResult change(Motor& motor, const Register& reg, std::int64_t raw) {
-    const bool is_address = reg.number == address_register(motor.model()).number;
-    ChangeResult outcome{.before = motor.read(reg)};
-    if (std::string none = no_mode(motor.model(), reg, raw); !none.empty())
-        return {.before = outcome.before, .after = outcome.before, .taken = false, .why = std::move(none)};
-    try {
-        motor.write(reg, raw);
-    } catch (const LineError& error) {
-        if (!is_address) return refused_or_lost(motor, outcome.before, error);
-    } catch (const Unconfirmed&) {
-        outcome.why = gateway_refusal(motor, Asked::write);
-        if (outcome.why.empty()) throw;
-        return {.before = outcome.before, .after = outcome.before, .taken = false, .why = outcome.why};
-    }
-    if (is_address) {
-        Motor moved(motor.master(), static_cast<std::uint8_t>(raw), motor.model());
-        outcome.after = moved.read(reg);
-        outcome.remark =
-            fmt::format("the motor answers to --address {} from now on; `macreg flash save` keeps it", raw);
-        return outcome;
-    }
-    outcome.after = motor.read(reg);
-    const std::int64_t passing = passing_bits(motor.model(), reg);
-    outcome.taken = is_pointer(reg) ? outcome.after == 0 : (outcome.after & ~passing) == (raw & ~passing);
-    if (!outcome.taken && runs_on(reg) && outcome.after != outcome.before) {
-        outcome.taken = true;
-        outcome.remark = "the motor goes on changing it";
-    }
-    if (const std::string ended =
-            reg.number == registers::MODE_REG ? ended_by_itself(raw, outcome.after) : "";
-        !outcome.taken && !ended.empty() && hindrance(motor, raw, outcome.after).empty()) {
-        outcome.taken = true;
-        outcome.remark = ended;
-    }
-    if (!outcome.taken) outcome.why = why_not(motor, reg, raw, outcome.after);
-    add_remark(outcome, motor, reg, raw);
-    return outcome;
+bool is_stop(Model model, const Register& reg, std::int64_t raw) {
+    if (reg.number != registers::MODE_REG) return false;
+    return raw == kInit || (raw == kStop && model != Model::mac800);
 }
 
+bool stop_unasked(mactalk_client::Master& master, std::uint8_t address, std::optional<Model> model,
+                  std::int64_t raw, unsigned attempts) {
+    using mactalk_client::Width;
+    const Width width = model == Model::mac800 ? Width::longword : Width::word;
+    for (unsigned i = 0; i < attempts; ++i) {
+        if (master.try_write(address, registers::MODE_REG, static_cast<std::uint32_t>(raw), width))
+            return true;
+    }
+    return false;
+}
+
+ChangeResult change(Motor& motor, const Register& reg, std::int64_t raw) {
+    if (!is_stop(motor.model(), reg, raw)) return write_and_look(motor, reg, raw, motor.read(reg));
+    try {
+        return write_and_look(motor, reg, raw, std::nullopt);
+    } catch (const LineError& error) {
+        throw LineError(error.kind(), fmt::format("{}; {}", kMayMove, error.what()));
+    }
+}
 RawValues read_limits(Motor& motor, const RawValues& wanted) {
     constexpr std::uint8_t kAll[] = {MIN_P_IST, MAX_P_IST, P_IST, ERR_STAT};
     RawValues now;

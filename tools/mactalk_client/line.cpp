@@ -27,7 +27,7 @@ void Line::expect_late_answer() {
 
 std::uint64_t Line::settle(bool in_silence) {
     std::array<std::uint8_t, 256> bytes{};
-    const base::Instant last = now() + kLongestDrain;
+    const base::Instant last = std::min(now() + kLongestDrain, deadline_);
     std::uint64_t stray = 0;
     for (;;) {
         const base::Instant time = now();
@@ -35,7 +35,7 @@ std::uint64_t Line::settle(bool in_silence) {
         const bool waits = late_answer_ && in_silence && time < silent && time < last;
         const std::size_t count = receive(bytes, waits ? silent - time : base::Microseconds{0});
         stray += count;
-        if (count == 0 && !waits) break;
+        if ((count == 0 && !waits) || now() >= last) break;
     }
     if (in_silence) late_answer_ = false;
     return stray;

@@ -37,12 +37,20 @@ Block block_of(const std::array<std::uint8_t, protocol::mactalk::kBlockBytes>& b
 
 void GatewayClient::identify() {
     const Block block = read_block(gw::IDENTITY);
-    if (block[0] != gw::kIdentity)
+    check_identity(block[0], block[gw::MAP_VERSION - gw::IDENTITY]);
+}
+
+void GatewayClient::identify_briefly() {
+    const std::uint32_t identity = read(gw::IDENTITY);
+    check_identity(identity, identity == gw::kIdentity ? read(gw::MAP_VERSION) : 0);
+}
+
+void GatewayClient::check_identity(std::uint32_t identity, std::uint32_t map) const {
+    if (identity != gw::kIdentity)
         throw WrongDevice(fmt::format(
             "{}: what answers at address {} is no gateway (IDENTITY is {:08X}h); the motor behind "
             "one has an address of its own",
-            master_.wire().name(), address_, block[0]));
-    const std::uint32_t map = block[gw::MAP_VERSION - gw::IDENTITY];
+            master_.wire().name(), address_, identity));
     if (map != gw::kMapVersion)
         throw WrongDevice(
             fmt::format("{}: the gateway has register map {}, this program knows {}; take the "

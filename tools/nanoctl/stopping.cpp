@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "base/bytes.h"
 #include "nanoctl/texts.h"
 
@@ -15,6 +18,11 @@ namespace {
 /// Timeout for the motor's confirmation.
 constexpr base::Milliseconds kBetweenLooks{20};
 
+/// Beyond the deadline, on a line on which looks are lost.
+constexpr base::Milliseconds kLastLook{800};
+/// For the question whether it was a gateway.
+constexpr base::Milliseconds kIdentity{1'000};
+
 /// The command is repeated until the status confirms it: a message may be lost, and another client may get
 /// the line's answers.
 class Stopping {
@@ -24,6 +32,7 @@ class Stopping {
 
     Status run() {
         for (;;) {
+            gateway_.master().set_deadline(deadline() + kLastLook);
             const auto status = is_asked_ ? look() : send_and_look();
             if (status && is_done(*status)) return *status;
             if (status && is_idle(*status)) {
@@ -32,7 +41,7 @@ class Stopping {
                 throw Refused(gw::Result::not_running, gw::COMMAND, 0,
                               fmt::format("hold: {}", gw::describe(gw::Result::not_running)));
             }
-            if (now() - begun_ >= kLongestStop) fail(status);
+            if (now() >= deadline() + (status ? base::Microseconds(0) : kLastLook)) end(status);
             gateway_.look_for_interruption();
         }
     }
@@ -53,9 +62,23 @@ class Stopping {
         const auto block = gateway_.try_read_block(gw::STATUS);
         if (!block) return std::nullopt;
         const Status status(*block);
+        last_ = status;
+        if (is_ordered(status) && !ordered_at_) ordered_at_ = now();
         // A repeat would be another stop, to be confirmed again.
         is_asked_ = is_ordered(status) && status.has(gw::kStopUnconfirmed);
         return status;
+    }
+
+    static bool delivers(const Status& status) {
+        return status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
+    }
+    /// By its last status, however long ago that came.
+    bool waits_for_motor() const {
+        return ordered_at_ && is_ordered(*last_) && (!delivers(*last_) || last_->has(gw::kStopUnconfirmed));
+    }
+    base::Instant deadline() const {
+        const base::Instant end = begun_ + kLongestStop;
+        return waits_for_motor() ? std::min(end, *ordered_at_ + GatewayClient::kConfirmationWait) : end;
     }
 
     bool is_ordered(const Status& status) const {
@@ -68,20 +91,13 @@ class Stopping {
             if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
             return false;
         }
-        if (!ordered_at_) ordered_at_ = now();
-        const bool delivers = status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
-        if (delivers && !status.has(gw::kStopUnconfirmed)) {
+        if (!waits_for_motor()) {
             if (was_told_) return true;
             was_told_ = is_asked_ = gateway_.master().try_write(gateway_.address(), gw::COMMAND,
                                                                 static_cast<std::uint32_t>(command_),
                                                                 mactalk_client::Width::longword);
             return false;
         }
-        if (now() - *ordered_at_ >= GatewayClient::kConfirmationWait)
-            unconfirmed(fmt::format("the sequence is {}, but {}", name_of(status.run_state),
-                                    delivers
-                                        ? "the motor has not confirmed the stop"
-                                        : "the link to the motor is down and the motor could not be told"));
         gateway_.master().pause(kBetweenLooks);
         return false;
     }
@@ -91,6 +107,14 @@ class Stopping {
     }
 
     bool is_idle(const Status& status) const { return holds() && status.run_state == gw::RunState::stopped; }
+
+    [[noreturn]] void end(const std::optional<Status>& status) const {
+        if (!waits_for_motor()) fail(status);
+        unconfirmed(fmt::format("the sequence is {}, but {}", name_of(last_->run_state),
+                                delivers(*last_)
+                                    ? "the motor has not confirmed the stop"
+                                    : "the link to the motor is down and the motor could not be told"));
+    }
 
     [[noreturn]] void fail(const std::optional<Status>& status) const {
         ByteClient& wire = gateway_.master().wire();
@@ -108,18 +132,24 @@ class Stopping {
     bool is_asked_ = false;  ///< the gateway has received it, and waits for the motor
     /// A stop was received since it was asked. Of a gateway that had stopped before only an accept shows it.
     bool was_told_ = false;
+    std::optional<Status> last_;
     std::optional<base::Instant> ordered_at_;  ///< first confirmation that the gateway has received it
 };
 
 }  // namespace
 
 Status stop_machine(GatewayClient& gateway, gw::Command command) {
+    struct Deadline {
+        mactalk_client::Master& master;
+        ~Deadline() { master.set_deadline(base::kNever); }
+    } const deadline{gateway.master()};
     const auto not_confirmed = [&](const std::exception& error) {
         return fmt::format("{}: {}: {}", name_of(command), error.what(), kMayStillRun);
     };
     try {
         const Status status = Stopping(gateway, command).run();
-        gateway.identify();
+        deadline.master.set_deadline(gateway.master().wire().now() + kIdentity);
+        gateway.identify_briefly();
         return status;
     } catch (const LineError& error) {
         throw NotConfirmed(not_confirmed(error));

@@ -64,6 +64,8 @@ void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, con
 void AxisReporter::report_events(gateway::Controller& controller, const faces::Sitter* holder) {
     events_.look(controller.sequence().log(), [&](const gateway::EventLog::Entry& entry) {
         if (!has_store_ && is_of_store(entry)) return;
+        const bool is_link_up = static_cast<Event>(entry.event) == Event::link_up;
+        if (is_link_up && !link_messages_.writes_whole()) return;
         LogMessage message = in_words(entry);
         if (const std::string changes = changes_of(entry, controller); !changes.empty())
             message.text += ": " + changes;
@@ -94,8 +96,15 @@ void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
         tell_silence_at_ = base::kNever;
         journal_.write(LogLevel::warning, motor.silence_in_words(), {{"EVENT", "motor_silent"}});
     }
+    if (const auto count = link_messages_.count(now))
+        journal_.write(LogLevel::warning, *count, {{"EVENT", "motor_lost"}});
     if (motor::delivers(link) == motor::delivers(told_link_)) return;
     told_link_ = link;
+    if (motor::delivers(link))
+        link_messages_.back();
+    else
+        link_messages_.lost(now);
+    if (!link_messages_.writes_whole()) return;
     if (motor::delivers(link))
         journal_.write(LogLevel::notice, "the motor answers on " + motor.line_in_words(),
                        {{"EVENT", "motor_answers"}});

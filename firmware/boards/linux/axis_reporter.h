@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/time.h"
@@ -7,6 +8,7 @@
 #include "faces/tally.h"
 #include "gateway/controller.h"
 #include "journal.h"
+#include "link_messages.h"
 #include "motor/motor.h"
 #include "motor_part.h"
 #include "seat/seat.h"
@@ -26,7 +28,7 @@ class AxisReporter {
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                 base::Instant now);
     /// Latest time of the next report().
-    base::Instant next_report() const { return tell_silence_at_; }
+    base::Instant next_report() const { return std::min(tell_silence_at_, link_messages_.next()); }
 
   private:
     void report_events(gateway::Controller& controller, const faces::Sitter* holder);
@@ -38,6 +40,7 @@ class AxisReporter {
     faces::NewEvents events_;
     faces::DropWatch drops_;
     motor::Link told_link_ = motor::Link::down;
+    LinkMessages link_messages_;
     bool has_store_ = true;
 };
 

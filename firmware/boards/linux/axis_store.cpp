@@ -178,7 +178,13 @@ std::string AxisStore::mark_crashed() {
     return storage_ ? marker_->note_crash() : std::string();
 }
 
+bool is_in_use(const std::string& folder) {
+    return hal_linux::FileStorage::is_held(store_file(folder));
+}
+
 std::string note_crash(const std::string& folder) {
+    if (is_in_use(folder))
+        return fmt::format("{}: a service uses this store: it has not ended, and nothing was noted", folder);
     hal_linux::RunMarker marker(run_mark(folder));
     const bool crashed = marker.found() == Found::running && marker.of_this_boot();
     return crashed ? marker.note_crash() : std::string();

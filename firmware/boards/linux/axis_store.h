@@ -72,8 +72,11 @@ class AxisStore {
     NoStorage no_storage_{kMemory};
 };
 
+/// Whether a service has the store in this folder open.
+bool is_in_use(const std::string& folder);
+
 /// After the end of the service: an axis in this folder that was running in this boot has crashed, which the
-/// next start knows even after a power cut. Empty, or a one-line error.
+/// next start knows even after a power cut. Changes nothing while is_in_use(). Empty, or a one-line error.
 std::string note_crash(const std::string& folder);
 
 }  // namespace nplc::boards

@@ -2,7 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <thread>
 
 #include "arguments/arguments.h"
 #include "axis_store.h"
@@ -37,7 +39,8 @@ constexpr const char* kFooter =
     "check-config looks at the devices too, and at the settings and tables that are stored.\n"
     "Exit codes: 0 ended in order, or all is in order; 2 wrong usage, or mistakes in the configuration; 3 "
     "the\n"
-    "watchdog could not be had, or check-config found what an axis cannot have or run.\n"
+    "watchdog could not be had, check-config found what an axis cannot have or run, or note-end a service "
+    "that runs.\n"
     "Example: nanoplc check-config /etc/nanoplc/nanoplc.toml && nanoplc --config /etc/nanoplc/nanoplc.toml";
 
 /// More than eight axes need.
@@ -111,10 +114,32 @@ int check(const Options& options) {
     return kDone;
 }
 
+/// The folder of one; empty: none. A program that was killed may hold its store for a moment.
+std::string store_in_use(const Config& config) {
+    constexpr int kLooks = 20;
+    constexpr std::chrono::milliseconds kBetweenLooks{50};
+    std::string used;
+    for (int i = 0; i < kLooks; ++i) {
+        if (i != 0) std::this_thread::sleep_for(kBetweenLooks);
+        used.clear();
+        for (const AxisConfig& axis : config.axes) {
+            const std::string folder = config.state_directory + "/" + axis.name;
+            if (is_in_use(folder)) used = folder;
+        }
+        if (used.empty()) break;
+    }
+    return used;
+}
+
 /// To be called at each end of the service, orderly or not.
 int note_ends(const std::string& file) {
     const Loaded loaded = load(file);
     if (!loaded.is_whole) return kWrong;
+    if (const std::string used = store_in_use(loaded.config); !used.empty()) {
+        host::complain(fmt::format(
+            "{}: a service uses this store: it has not ended, and nothing was noted of any axis", used));
+        return kNoDevice;
+    }
     int outcome = kDone;
     for (const AxisConfig& axis : loaded.config.axes) {
         const std::string error = note_crash(loaded.config.state_directory + "/" + axis.name);

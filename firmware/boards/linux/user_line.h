@@ -20,6 +20,7 @@ class UserLine final : public hal_linux::Connections {
     Peer peer(Id) const override { return {.kind = Peer::Kind::serial_line}; }
     std::vector<Id> with_news() override { return {kClient}; }
     Got read(Id client, std::span<std::uint8_t> out) override;
+    bool is_open(Id) const override { return true; }
     std::optional<std::size_t> write(Id client, std::span<const std::uint8_t> bytes) override;
     void listen_to(Id, bool) override {}
     void wait_to_write(Id, bool) override {}

@@ -18,7 +18,7 @@ void UserServer::serve(std::unique_ptr<hal_linux::Connections> connections, face
     connections_ = std::move(connections);
     listener_ = std::make_unique<Listener>(
         Listener::Options{.name = connections_->name(), .operators = operators, .password = password});
-    exchange_.emplace(*connections_, *listener_);
+    exchange_.emplace(*connections_, *listener_, &clock_);
 }
 
 void UserServer::bring(gateway::Controller& controller, const Listener::Addresses& addresses,

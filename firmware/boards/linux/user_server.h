@@ -7,6 +7,7 @@
 #include "base/time.h"
 #include "gateway/controller.h"
 #include "hal_linux/connections.h"
+#include "hal_linux/steady_clock.h"
 #include "listener/exchange.h"
 #include "listener/listener.h"
 
@@ -37,6 +38,7 @@ class UserServer {
     base::Instant next(base::Instant now) const { return exchange_->next(now); }
 
   private:
+    hal_linux::SteadyClock clock_;
     std::unique_ptr<hal_linux::Connections> connections_;
     std::unique_ptr<Listener> listener_;
     std::optional<Exchange> exchange_;

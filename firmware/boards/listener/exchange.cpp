@@ -88,7 +88,7 @@ void Exchange::bring(gateway::Controller& controller, base::Instant now, base::I
     look(now);
     gateway::UserPort& port = controller.user_port();
     for (int i = 0; i < kMostAtOnce; ++i) {
-        const Frame* const frame = listener_.next(now);
+        const Frame* const frame = listener_.next(clock_ == nullptr ? now : clock_->now());
         if (frame == nullptr) return;
         expect(frame->message);
         port.submit(frame->message, frame->data, controllers_now);

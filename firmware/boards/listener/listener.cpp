@@ -215,7 +215,8 @@ std::optional<std::uint32_t> Listener::refusal_for_anybody(const Client& client,
     const std::uint8_t reg = frame.message.reg;
     if (frame.needs_seat && !options_.password.empty() && !client.has_password)
         return result_word(gw::Result::no_password, reg);
-    if (now - frame.since > kLongestUnread || client.has_left) return result_word(gw::Result::too_late, reg);
+    const bool has_left = client.has_left || (is_there_ && !is_there_(client.id));
+    if (now - frame.since > kLongestUnread || has_left) return result_word(gw::Result::too_late, reg);
     return std::nullopt;
 }
 

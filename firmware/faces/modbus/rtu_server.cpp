@@ -102,6 +102,7 @@ base::Instant RtuServer::Loop::due(base::Instant now) const {
     if (reader_.is_under_way()) due = std::min(due, heard_ + gap_ + kLumps);
     if (frame_) due = std::min(due, sent_ == 0 ? heard_ + gap_ : now + kBriefly);
     if (asked_) due = std::min(due, now + kBriefly);
+    if (session_ && session_->is_waiting()) due = std::min(due, now + UnitSet::kBetweenLooks);
     return due;
 }
 
@@ -124,7 +125,7 @@ void RtuServer::Loop::run() {
         line_->look();
         read(now);
         if (request_size_ != 0) serve(now);
-        if (const auto ended = session_->take()) {
+        if (const auto ended = session_->take(now)) {
             if (!std::exchange(is_stale_, false)) answer(*ended);
         }
         send(now);

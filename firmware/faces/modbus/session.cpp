@@ -442,10 +442,10 @@ std::optional<Answer> Session::begin(const Look& look, const Request& request,
     return std::nullopt;
 }
 
-std::optional<Answer> Session::take() {
+std::optional<Answer> Session::take(base::Instant now) {
     if (!waiting_) return std::nullopt;
     auto& client = clients_[waiting_->index];
-    while (const auto ended = client->take()) {
+    while (const auto ended = client->take(now)) {
         const auto place = std::find(waiting_->ids.begin(), waiting_->ids.end(), ended->id);
         if (place != waiting_->ids.end()) waiting_->ended.push_back(*ended);
     }

@@ -35,6 +35,7 @@ short TcpClient::events() const {
 }
 
 base::Instant TcpClient::due(base::Instant now) const {
+    if (session_.is_waiting()) return now + UnitSet::kBetweenLooks;
     if (asks_image_) return std::max(now, image_asked_ + base::Milliseconds(1));
     if ((has_more_ || have_ >= kMostFrame) && out_.empty() && !session_.is_waiting()) return now;
     return have_ != 0 || !out_.empty() ? began_ + kPatience : base::kNever;
@@ -61,7 +62,7 @@ void TcpClient::serve(short events, base::Instant now) {
     else if (was_asked)
         silent_at_ = now;
     if ((events & (POLLERR | POLLHUP | POLLNVAL)) != 0) is_gone_ = true;
-    if (const auto answer = session_.take()) put(*answer);
+    if (const auto answer = session_.take(now)) put(*answer);
     if (!out_.empty()) send();
     int served = 0;
     while (served < kMostAtOnce && out_.empty() && !is_gone_ && serve_one(now)) {

@@ -16,6 +16,7 @@ class UnitSet {
     static constexpr base::Milliseconds kImageWait{100};
     /// Poll interval of masters and lines. Data that arrived between two polls are as old as this interval.
     static constexpr base::Milliseconds kTick{250};
+    static constexpr base::Milliseconds kBetweenLooks{20};  ///< while a command is in progress
 
     UnitSet(const faces::Axes& axes, const Settings& settings) : axes_(axes), settings_(settings) {}
     ~UnitSet();

@@ -231,7 +231,10 @@ void AxisLoop::carry_out_stop(gateway::Controller& controller, const Work& stop)
     }
     if (change_ && !change_ended_ && change_writer_.request == 0)
         change_ended_ = Completion{.result = Result::too_late};
-    const Completion completion = write_own(controller, stop.command);
+    Completion completion = write_own(controller, stop.command);
+    // A hold of a sequence that does not run is no stop; the motor may be moving all the same.
+    if (completion.result == Result::not_running && controller.sequence().stop_unconfirmed())
+        completion.result = Result::stop_unconfirmed;
     look_for_stops(controller);
     if (!model_.desk().drop_all_that_operates()) come_back_ = true;
     take_image(controller);

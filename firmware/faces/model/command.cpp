@@ -9,6 +9,13 @@ namespace nplc::faces {
 
 namespace gw = registers::gateway;
 
+std::string describe(const Completion& completion) {
+    if (completion.result != Result::stop_unconfirmed) return std::string(gw::describe(completion.result));
+    return completion.is_axis_silent
+               ? "not confirmed: the motor may be moving; the axis does not answer"
+               : "not confirmed: the motor may be moving; mend its supply or line, or give the stop up";
+}
+
 Command Command::of(gw::Command command, base::Instant origin) {
     return own(gw::COMMAND, static_cast<std::uint32_t>(command), origin);
 }

@@ -40,6 +40,7 @@ std::unique_ptr<CommandDesk::Client> CommandDesk::join(Side side, std::string na
         place.open = 0;
         place.waiting.clear();
         place.stops.clear();
+        place.open_stops.clear();
         place.ended.clear();
         place.number = number;
         return std::unique_ptr<Client>(new Client(*this, i, number));
@@ -59,6 +60,7 @@ void CommandDesk::leave(std::size_t which) {
         place.has_left = true;
         place.bell = nullptr;
         place.waiting.clear();
+        place.open_stops.clear();
         place.ended.clear();
     }
     if (loop_ != nullptr) loop_->strike();
@@ -76,6 +78,7 @@ std::optional<std::uint32_t> CommandDesk::Client::submit(const Command& command)
                 return true;
             });
             if (id == 0) place.stops.push({id = ++place.last_id, command});
+            open_stop(place, id);
         } else {
             if (place.open >= kMostWaiting) return std::nullopt;
             ++place.open;
@@ -86,6 +89,14 @@ std::optional<std::uint32_t> CommandDesk::Client::submit(const Command& command)
     return id;
 }
 
+std::optional<Completion> CommandDesk::Client::take(base::Instant now) {
+    {
+        const std::lock_guard lock(desk_.mutex_);
+        answer_stops(*desk_.places_[place_], now);
+    }
+    return take();
+}
+
 std::optional<Completion> CommandDesk::Client::take() {
     const std::lock_guard lock(desk_.mutex_);
     Place& place = *desk_.places_[place_];
@@ -93,6 +104,30 @@ std::optional<Completion> CommandDesk::Client::take() {
     const Completion completion = place.ended.front();
     place.ended.pop();
     return completion;
+}
+
+/// Of more than can be kept the loop alone tells how the oldest ended.
+void CommandDesk::open_stop(Place& place, std::uint32_t id) {
+    bool is_open = false;
+    sift(place.open_stops, [&](const OpenStop& stop) {
+        is_open = is_open || stop.id == id;
+        return true;
+    });
+    if (is_open) return;
+    if (place.open_stops.full()) place.open_stops.pop();
+    place.open_stops.push({.id = id});
+}
+
+void CommandDesk::answer_stops(Place& place, base::Instant now) {
+    for (std::size_t left = place.open_stops.size(); left != 0; --left) {
+        OpenStop stop = place.open_stops.front();
+        place.open_stops.pop();
+        if (!stop.seen) stop.seen = now;
+        if (now - *stop.seen < (stop.is_read ? kUnended : kUnread))
+            place.open_stops.push(stop);
+        else
+            complete(place, {.id = stop.id, .result = Result::stop_unconfirmed, .is_axis_silent = true});
+    }
 }
 
 /// Reads are kept, unless `all`.
@@ -121,7 +156,14 @@ bool CommandDesk::take_stop(std::optional<Work>& work) {
                 work = Work{i, place.sitter, waiting.command, waiting.id};
                 return false;
             });
-            if (work) return true;
+            if (!work) continue;
+            for (std::size_t left = place.open_stops.size(); left != 0; --left) {
+                OpenStop stop = place.open_stops.front();
+                place.open_stops.pop();
+                stop.is_read = stop.is_read || stop.id == work->id;
+                place.open_stops.push(stop);
+            }
+            return true;
         }
     }
     return false;
@@ -148,6 +190,7 @@ bool CommandDesk::end(const Work& work, const Completion& completion) {
     Place& place = *places_[work.place];
     if (place.number != work.client.number || place.has_left) return true;
     complete(place, completion);
+    sift(place.open_stops, [&](const OpenStop& stop) { return stop.id != work.id; });
     if (!work.command.is_stop()) --place.open;
     place.bell->strike();
     return true;

@@ -43,7 +43,9 @@ void EdgeNode::receive(const Incoming& message, const Moment& moment) {
         return;
     }
     for (std::size_t i = 0; i < devices_.size(); ++i) {
-        if (message.topic == topic("DCMD", devices_[i].axis->name()) && devices_[i].is_born)
+        const bool is_meant = message.topic == topic("DCMD", devices_[i].axis->name());
+        // A dead device's axis may only not have answered for a while.
+        if (is_meant && (devices_[i].is_born || is_stop(i, *payload)))
             take_device_command(i, *payload, message, moment.milliseconds);
     }
 }
@@ -61,6 +63,7 @@ void EdgeNode::submit(Device& device, const std::string& what, const faces::Comm
     if (!id) return refuse(device, what, Result::busy);
     device.command = what;
     device.command_id = *id;
+    device.stop_waits = command.is_stop();
     device.sets_values = command.reg == gw::SET_POINT_WRITE;
 }
 
@@ -94,17 +97,30 @@ void EdgeNode::take_device_command(std::size_t index, const Payload& payload, co
            "a command and values in one message; nothing was done");
 }
 
+std::optional<gw::Command> EdgeNode::allowed_command(std::size_t index, const Metric& metric) const {
+    for (std::size_t place = 0; place < options_.commands.size(); ++place) {
+        const gw::Command command = options_.commands[place];
+        const bool is_meant = metric.name.empty()
+                                  ? metric.alias == alias_of(index, kCommandAlias + place)
+                                  : metric.name == fmt::format("{}{}", kCommand, gw::name_of(command));
+        if (is_meant) return command;
+    }
+    return std::nullopt;
+}
+
+bool EdgeNode::is_stop(std::size_t index, const Payload& payload) const {
+    const auto& all = payload.metrics;
+    return !all.empty() && std::all_of(all.begin(), all.end(), [&](const Metric& metric) {
+        const auto command = allowed_command(index, metric);
+        return command && is_true(metric) && faces::Command::of(*command, {}).is_stop();
+    });
+}
+
 void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given& given) {
     Device& device = devices_[index];
     const std::string name = metric.name.substr(0, kLongestName);
-    const auto allowed =
-        std::find_if(options_.commands.begin(), options_.commands.end(), [&](const gw::Command& command) {
-            const auto place = static_cast<std::size_t>(&command - options_.commands.data());
-            const std::string own = fmt::format("{}{}", kCommand, gw::name_of(command));
-            return name.empty() ? metric.alias == alias_of(index, kCommandAlias + place) : name == own;
-        });
-    if (allowed == options_.commands.end() || !device.client)
-        return refuse(device, name, Result::not_allowed);
+    const auto allowed = allowed_command(index, metric);
+    if (!allowed || !device.client) return refuse(device, name, Result::not_allowed);
     if (is_too_late(device, given))
         return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late);
     submit(device, std::string(gw::name_of(*allowed)), faces::Command::of(*allowed, given.message.arrived));

@@ -268,15 +268,17 @@ void EdgeNode::flush(const Publish& publish, std::uint64_t milliseconds) {
 }
 
 /// Result of the device's last command.
-void EdgeNode::report(std::size_t index, const Publish& publish, std::uint64_t milliseconds) {
+void EdgeNode::report(std::size_t index, const Publish& publish, const Moment& moment) {
+    const std::uint64_t milliseconds = moment.milliseconds;
     Device& device = devices_[index];
     while (device.client) {
-        const auto ended = device.client->take();
+        const auto ended = device.client->take(moment.now);
         if (!ended) break;
         if (ended->id != device.command_id) continue;
+        device.stop_waits = false;
         device.result = static_cast<std::int64_t>(ended->result);
         device.result_text = device.sets_values ? faces::describe_refusal(*device.axis->set_points(), *ended)
-                                                : std::string(gw::describe(ended->result));
+                                                : faces::describe(*ended);
         if (ended->result == Result::done) device.result_text = "done";
         device.result_changed = true;
     }
@@ -308,9 +310,9 @@ void EdgeNode::tick(const Moment& moment, const Publish& publish) {
         const faces::AxisImage image = device.axis->image(moment.now);
         const bool lives = is_alive(image, moment.now) && !device.last.empty();
         if (lives && !device.is_born) bear_device(i, publish, moment);
-        if (!lives && device.is_born)
+        report(i, publish, moment);
+        if (!lives && device.is_born && !device.stop_waits)  // its answer would come from a dead device
             device.is_born = !send(publish, topic("DDEATH", device.axis->name()), {}, moment.milliseconds);
-        report(i, publish, moment.milliseconds);
     }
     if (is_born_) flush(publish, moment.milliseconds);
     if (is_born_ && told_dropped_ != store_.dropped()) {

@@ -77,6 +77,7 @@ class EdgeNode {
         std::uint32_t command_id = 0;           ///< in progress
         std::string command{};                  ///< the last one
         bool sets_values = false;               ///< the last one is of set-points
+        bool stop_waits = false;                ///< the last one is a stop without an answer yet
         std::int64_t result = 0;
         std::string result_text{};
         bool result_changed = false;
@@ -93,7 +94,7 @@ class EdgeNode {
     void bear_device(std::size_t index, const Publish& publish, const Moment& moment);
     void look(std::size_t index, const Moment& moment);
     void flush(const Publish& publish, std::uint64_t milliseconds);
-    void report(std::size_t index, const Publish& publish, std::uint64_t milliseconds);
+    void report(std::size_t index, const Publish& publish, const Moment& moment);
     std::vector<Metric> result_metrics(std::size_t index) const;
     Metric why_metric(std::size_t index) const;
     Metric metric_of(const Record& record) const;
@@ -102,6 +103,8 @@ class EdgeNode {
     void take_host_state(std::string_view payload);
     void take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
                              std::uint64_t milliseconds);
+    std::optional<registers::gateway::Command> allowed_command(std::size_t index, const Metric& metric) const;
+    bool is_stop(std::size_t index, const Payload& payload) const;
     void take_command(std::size_t index, const Metric& metric, const Given& given);
     void take_set_points(std::size_t index, const std::vector<const Metric*>& metrics, const Given& given);
     std::optional<std::size_t> set_point_of(std::size_t index, const Metric& metric) const;

@@ -77,7 +77,7 @@ void Hub::answer_completion(ClientId client, std::uint64_t request, const faces:
                           {"code", static_cast<unsigned>(completion.result)},
                           {"detail", completion.detail},
                           {"value", completion.value},
-                          {"text", own::describe(completion.result)}};
+                          {"text", faces::describe(completion)}};
     server_->send(client, message.dump());
 }
 
@@ -164,13 +164,13 @@ void Hub::submit(ClientId client, Session& session, std::size_t axis, const Requ
     AxisPart& part = session.parts[axis];
     const auto id = part.desk->submit(*asked.command);
     if (!id) return answer(client, request, "refused", "too many commands wait; try again");
-    part.asked[*id] = *request.id;
+    part.asked.emplace(*id, *request.id);
 }
 
 void Hub::serve_desk(ClientId client, Session& session, std::size_t index, base::Instant now) {
     AxisPart& part = session.parts[index];
     if (!part.desk) return;
-    while (const auto completion = part.desk->take()) {
+    while (const auto completion = part.desk->take(now)) {
         if (part.upload && completion->id == part.upload_id) {
             part.upload->ended(*completion, now);
             continue;
@@ -179,10 +179,10 @@ void Hub::serve_desk(ClientId client, Session& session, std::size_t index, base:
             part.set_points->ended(*completion);
             continue;
         }
-        const auto found = part.asked.find(completion->id);
-        if (found == part.asked.end()) continue;
-        answer_completion(client, found->second, *completion);
-        part.asked.erase(found);
+        const auto [first, last] = part.asked.equal_range(completion->id);
+        for (auto asked = first; asked != last; ++asked)
+            answer_completion(client, asked->second, *completion);
+        part.asked.erase(first, last);
     }
     if (part.upload) go_on_with_upload(client, session, index, now);
     if (part.set_points) go_on_with_set_points(client, part, now);

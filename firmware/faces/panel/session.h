@@ -22,8 +22,8 @@ struct Rights {
 
 /// A client's state for one axis: what was sent to it, and its requests.
 struct AxisPart {
-    std::unique_ptr<faces::CommandDesk::Client> desk{};  ///< from its first command on
-    std::map<std::uint32_t, std::uint64_t> asked{};      ///< requests by the desk's ids
+    std::unique_ptr<faces::CommandDesk::Client> desk{};   ///< from its first command on
+    std::multimap<std::uint32_t, std::uint64_t> asked{};  ///< requests by the desk's ids
     std::optional<faces::Upload> upload{};
     std::uint32_t upload_id = 0;  ///< of its command in progress
     std::size_t told_bytes = 0;

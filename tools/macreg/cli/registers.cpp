@@ -170,9 +170,10 @@ void look_for_danger(Session& session, const std::vector<Assignment>& all, bool 
 }
 
 std::string line_of(const Assignment& one, Model model, const ChangeResult& outcome) {
-    return fmt::format("{} = {} (raw {}; was {})", one.reg->name,
-                       long_value_text(*one.reg, model, outcome.after), outcome.after,
-                       long_value_text(*one.reg, model, outcome.before));
+    const std::string before =
+        outcome.before ? "; was " + long_value_text(*one.reg, model, *outcome.before) : "";
+    return fmt::format("{} = {} (raw {}{})", one.reg->name, long_value_text(*one.reg, model, outcome.after),
+                       outcome.after, before);
 }
 
 /// Only part of it was written.
@@ -191,7 +192,7 @@ std::string line_of(const Assignment& one, Model model, const ChangeResult& outc
     throw command_line::Failure(exit_code, text, {{"written", names}, {"of", all.size()}});
 }
 
-void set(Session& session, const SetArguments& options) {
+void set_in(Session& session, const SetArguments& options) {
     const Model model = session.motor().model();
     auto [all, wrong] = read_assignments(model, options.words);
     if (!wrong.empty()) throw UserError(wrong);
@@ -212,7 +213,7 @@ void set(Session& session, const SetArguments& options) {
             }
         }();
         Json document = value_document(*one.reg, model, outcome.after);
-        document["before"] = outcome.before;
+        if (outcome.before) document["before"] = *outcome.before;
         if (!one.rounding.empty()) document["rounding"] = one.rounding;
         if (!outcome.remark.empty()) document["remark"] = outcome.remark;
         if (!outcome.taken) {
@@ -227,6 +228,28 @@ void set(Session& session, const SetArguments& options) {
         done.push_back(document);
     }
     session.tell(text, {{"registers", done}});
+}
+
+/// The stop among the values, if they are right for one of the models that the motor may be.
+std::optional<std::int64_t> stop_in(const Common& common, const SetArguments& options) {
+    const auto named = model_option(common);
+    for (const Model model : {named.value_or(Model::mac140), named.value_or(Model::mac800)}) {
+        const auto [all, wrong] = read_assignments(model, options.words);
+        if (!wrong.empty()) continue;
+        for (const Assignment& one : all) {
+            if (is_stop(model, *one.reg, one.raw)) return one.raw;
+        }
+    }
+    return std::nullopt;
+}
+
+void set(Common& common, const SetArguments& options) {
+    if (const auto stop = stop_in(common, options)) {
+        Session session(common, *stop);
+        return set_in(session, options);
+    }
+    Session session(common);
+    set_in(session, options);
 }
 
 struct WatchArguments {

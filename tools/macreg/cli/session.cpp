@@ -7,6 +7,7 @@
 
 #include "host/printable.h"
 #include "host/terminal.h"
+#include "macreg/change.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
 #include "whole_files/whole_files.h"
@@ -98,6 +99,13 @@ std::unique_ptr<host::ByteClient> open(const Common& common) {
     return command_line::open_with_password(common, registers::gateway::kDefaultAddress);
 }
 
+std::unique_ptr<host::ByteClient> open_for_stop(const Common& common) {
+    static_cast<void>(model_option(common));
+    return command_line::open_port(common);
+}
+
+constexpr unsigned kStopsAtOnce = 2;
+
 }  // namespace
 
 void refuse(const std::string& text) {
@@ -127,17 +135,45 @@ std::vector<const registers::Register*> find_registers(Model model, const std::v
     return found;
 }
 
-Session::Session(const Common& common)
+Session::Session(const Common& common) : Session(common, open(common)) {
+    find_motor();
+}
+
+/// A stop needs no password.
+Session::Session(const Common& common, std::int64_t stop) : Session(common, open_for_stop(common)) {
+    const auto model = model_option(common);
+    const auto address = common.address != 0 ? static_cast<std::uint8_t>(common.address) : kEveryone;
+    const auto failed = [&](int exit_code, const std::string& why) {
+        const char* other = model ? "" : "; a MAC800 takes it with --model MAC800 only, unless it answers";
+        return command_line::Failure(exit_code,
+                                     fmt::format("the stop was sent, but {}{}; {}", kMayMove, other, why));
+    };
+    try {
+        static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
+        command_line::give_password(common, registers::gateway::kDefaultAddress, *wire_);
+        find_motor();
+    } catch (const LineError& error) {
+        if (error.kind() == LineError::Kind::no_answer)
+            static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
+        throw failed(error.exit_code(), error.what());
+    } catch (const mactalk_client::Ended& error) {
+        throw failed(error.exit_code(), error.what());
+    }
+}
+
+Session::Session(const Common& common, std::unique_ptr<host::ByteClient> wire)
     : common_(common),
-      wire_(open(common)),
+      wire_(std::move(wire)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
-                       .attempts = common.attempts}) {
+                       .attempts = common.attempts}) {}
+
+void Session::find_motor() {
     try {
-        const std::uint8_t address = find_address(master_, common);
-        motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+        const std::uint8_t address = find_address(master_, common_);
+        motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common_));
     } catch (const LineError& error) {
-        nobody(master_, common, error);
+        nobody(master_, common_, error);
     }
 }
 

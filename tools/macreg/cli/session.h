@@ -55,6 +55,9 @@ void ask(const Common& common, const std::string& what);
 class Session {
   public:
     explicit Session(const Common& common);
+    /// Sends a stop, this value of MODE_REG, before it asks anything, and again if nobody answers; the
+    /// Failure then says that it is not confirmed.
+    Session(const Common& common, std::int64_t stop);
 
     Motor& motor() { return *motor_; }
     mactalk_client::Master& master() { return master_; }
@@ -73,6 +76,9 @@ class Session {
     void progress(const std::string& text) const { command_line::progress(common_, text); }
 
   private:
+    Session(const Common& common, std::unique_ptr<host::ByteClient> wire);
+    void find_motor();
+
     const Common& common_;
     std::unique_ptr<host::ByteClient> wire_;
     mactalk_client::Master master_;

@@ -149,9 +149,12 @@ class App {
         const ChangeResult outcome = [&] {
             try {
                 return change(*motor_, reg, raw);
-            } catch (const LineError&) {
-                model_.tell(fmt::format("{} may have been written or not; read it (r) once the motor answers",
-                                        reg.name),
+            } catch (const LineError& error) {
+                model_.tell(is_stop(options_.model, reg, raw)
+                                ? std::string(error.what())
+                                : fmt::format("{} may have been written or not; read it (r) once the motor "
+                                              "answers",
+                                              reg.name),
                             true);
                 throw;
             }

@@ -19,6 +19,9 @@ class FileStorage : public ports::Storage {
     /// A missing file is created, atomically, filled with FFh.
     static Opened open(const std::string& path, const ports::StorageGeometry& geometry);
 
+    /// Whether a program holds the file; a missing one is not held.
+    static bool is_held(const std::string& path);
+
     virtual ~FileStorage() = default;
     FileStorage(const FileStorage&) = delete;
     FileStorage& operator=(const FileStorage&) = delete;

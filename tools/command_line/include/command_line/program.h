@@ -128,6 +128,8 @@ void add_password_option(arguments::App& app, Common& common);
 std::unique_ptr<host::ByteClient> open_with_password(
     const Common& common, std::uint8_t gateway,
     host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
+/// The same on a port that is open.
+void give_password(const Common& common, std::uint8_t gateway, host::ByteClient& wire);
 
 /// A line for a user, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);

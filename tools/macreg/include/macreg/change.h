@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "macreg/motor.h"
@@ -12,7 +13,7 @@
 namespace nplc::macreg {
 
 struct ChangeResult {
-    std::int64_t before = 0;
+    std::optional<std::int64_t> before{};  ///< of a stop not known: nothing is asked before it is sent
     std::int64_t after = 0;
     bool taken = true;
     std::string why{};     ///< a sentence with the remedy, if it was not accepted
@@ -21,7 +22,20 @@ struct ChangeResult {
 
 /// Writes `raw` with the register's exact width and reads it back. A new address (MYADDR) is read back at the
 /// new address. A write that a gateway refuses is a result too; a motor that does not answer is a LineError.
+/// A stop is written before anything is read, and its LineError says so (kMayMove).
 ChangeResult change(Motor& motor, const registers::Register& reg, std::int64_t raw);
+
+/// Whether the value makes the motor passive: INIT_MODE in MODE_REG, on MAC50 to MAC141 STOP_MODE too.
+bool is_stop(registers::Model model, const registers::Register& reg, std::int64_t raw);
+
+/// The text in every message about a stop that the motor has not confirmed.
+inline constexpr const char* kMayMove = "not confirmed: the motor may be moving";
+
+/// Writes a stop to MODE_REG of a motor that has not been asked for anything yet, at most `attempts` times;
+/// true: it was accepted. Without `model` it is a word, which changes no other register of any model; a
+/// MAC800 takes longwords only, and so no notice of it. Throws LineError if the port is gone.
+bool stop_unasked(mactalk_client::Master& master, std::uint8_t address, std::optional<registers::Model> model,
+                  std::int64_t raw, unsigned attempts);
 
 /// Why `change` may not give this value to MODE_REG or STARTMODE, with what to do instead; empty: it may. 256
 /// to 258 would act on a motor in SAFE_MODE, on its flash (001 §4.4.16).

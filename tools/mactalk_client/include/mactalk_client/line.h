@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -84,13 +85,17 @@ class Line {
     /// The transmission time of so many bytes.
     base::Microseconds time_of(std::size_t bytes) const;
 
+    /// Nothing is waited for after this instant: an answer has not come then.
+    void set_deadline(base::Instant deadline) { deadline_ = deadline; }
+
     /// This and the following functions throw LineError if the far end is gone.
     void send(std::span<const std::uint8_t> bytes);
     /// Passes received bytes to `take`, a piece at a time, until it returns true or the time for a request
     /// and an answer of so many bytes is over; returns whether it returned true.
     template <class Take>
     bool listen(std::size_t bytes, Take take, base::Microseconds more_patience = {}) {
-        const base::Instant end = now() + options_.patience + more_patience + time_of(bytes);
+        const base::Instant end =
+            std::min(now() + options_.patience + more_patience + time_of(bytes), deadline_);
         std::array<std::uint8_t, 256> piece{};
         for (base::Instant time = now(); time < end; time = now()) {
             if (take(std::span<const std::uint8_t>(piece).first(receive(piece, end - time)))) return true;
@@ -100,7 +105,8 @@ class Line {
     /// An answer to the last request may still arrive.
     void expect_late_answer();
     /// Discards what was received before the next request; returns how many bytes. With `in_silence`, for
-    /// answers that carry no address, the line must have been silent for as long as a late answer may take.
+    /// answers that carry no address, the line must have been silent for as long as a late answer may take; 2
+    /// s at the most.
     std::uint64_t settle(bool in_silence);
     /// Waits; returns how many bytes were received meanwhile and discarded.
     std::uint64_t pause(base::Microseconds time);
@@ -114,6 +120,7 @@ class Line {
     std::uint64_t sent_ = 0;  ///< messages
     bool heard_any_ = false;
     bool late_answer_ = false;
+    base::Instant deadline_ = base::kNever;
     base::Instant silent_since_{};
 };
 

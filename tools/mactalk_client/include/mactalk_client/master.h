@@ -68,6 +68,8 @@ class Master {
     void write_flash(std::uint8_t address);
     void reset(std::uint8_t address);
 
+    /// No answer is waited for after this instant.
+    void set_deadline(base::Instant deadline) { line_.set_deadline(deadline); }
     /// Waits; what is received meanwhile is discarded.
     void pause(base::Microseconds time);
 

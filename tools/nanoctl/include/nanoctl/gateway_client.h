@@ -54,6 +54,8 @@ class GatewayClient {
 
     /// To be called first.
     void identify();
+    /// The same in two short messages, for a bad line and little time.
+    void identify_briefly();
 
     std::uint32_t read(std::uint8_t reg) { return master_.read(address_, reg); }
     Block read_block(std::uint8_t reg);
@@ -88,6 +90,7 @@ class GatewayClient {
     std::optional<LastResult> try_last_result();
     [[noreturn]] void refuse(const LastResult& last, const std::string& what, const std::string& why);
     [[noreturn]] void lost(const std::string& what) const;
+    void check_identity(std::uint32_t identity, std::uint32_t map) const;
     bool is_stop_confirmed_soon();
     void command_once(gw::Command command, base::Microseconds more_patience);
 

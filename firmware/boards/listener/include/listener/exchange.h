@@ -6,6 +6,7 @@
 #include "gateway/controller.h"
 #include "hal_linux/connections.h"
 #include "listener/listener.h"
+#include "ports/clock.h"
 #include "protocol/mactalk.h"
 
 namespace nplc::boards {
@@ -14,8 +15,13 @@ namespace nplc::boards {
 /// line of its own.
 class Exchange {
   public:
-    Exchange(hal_linux::Connections& connections, Listener& listener)
-        : connections_(connections), listener_(listener) {}
+    /// `clock`: that of the clients, read once more before a message is handed out, since the process may
+    /// have been halted after the time that bring() is called with. Null: that time counts.
+    Exchange(hal_linux::Connections& connections, Listener& listener, ports::Clock* clock = nullptr)
+        : connections_(connections), listener_(listener), clock_(clock) {
+        listener.ask_who_is_there(
+            [&connections](Listener::Id client) { return connections.is_open(client); });
+    }
 
     /// To be called before the controller's poll: reads received data and submits the next message. `now`:
     /// time of the clients; `controllers_now`: time of the controller, which differs in a simulation.
@@ -36,6 +42,7 @@ class Exchange {
 
     hal_linux::Connections& connections_;
     Listener& listener_;
+    ports::Clock* clock_;
     protocol::mactalk::Answer expected_{};
     protocol::mactalk::ReplyDecoder reply_;  ///< decoder of the motor's answers
     bool is_whole_ = false;

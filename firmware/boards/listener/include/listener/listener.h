@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -56,6 +57,10 @@ class Listener {
     ~Listener();
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
+
+    /// Asked right before an operating message is handed out: false once its client has closed its sending
+    /// side. Without it only left() and gone() tell.
+    void ask_who_is_there(std::function<bool(Id client)> is_there) { is_there_ = std::move(is_there); }
 
     // Socket side. Clients are given in any order; looked() comes after all of them.
 
@@ -137,6 +142,7 @@ class Listener {
     bool is_for_somebody(std::uint8_t address) const;
 
     Options options_;
+    std::function<bool(Id)> is_there_;
     Addresses addresses_{};
     Clients clients_;
     std::vector<Id> dropped_;

@@ -71,7 +71,7 @@ class Session {
     std::optional<Answer> serve(std::uint8_t number, std::span<const std::uint8_t> pdu, const Moment& moment);
     std::uint64_t number() const { return number_; }
     bool is_waiting() const { return waiting_.has_value(); }
-    std::optional<Answer> take();
+    std::optional<Answer> take(base::Instant now);
 
   private:
     struct Waiting {

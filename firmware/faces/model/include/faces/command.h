@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "base/time.h"
 #include "registers/vocabulary.h"
@@ -62,6 +63,11 @@ struct Completion {
     Result result = Result::done;
     std::uint16_t detail = 0;  ///< as in RESULT: the term of a table's fault; of seat_taken see REGISTERS.md
     std::uint32_t value = 0;   ///< the motor register that was read
+    /// Of a stop with stop_unconfirmed: the axis's loop has not said how it ended. It is still carried out.
+    bool is_axis_silent = false;
 };
+
+/// The result in words; of a stop that was not confirmed they say that the motor may be moving.
+std::string describe(const Completion& completion);
 
 }  // namespace nplc::faces

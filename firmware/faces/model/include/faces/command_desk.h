@@ -37,6 +37,8 @@ class CommandDesk {
   public:
     static constexpr std::size_t kMostClients = 64;
     static constexpr std::size_t kMostWaiting = 8;  ///< per client
+    static constexpr base::Milliseconds kUnread{750};
+    static constexpr base::Milliseconds kUnended{1'100};
 
     /// One client of a face. Its destructor drops unread outcomes and pending commands (except stops) and
     /// frees its seat. Used by one thread.
@@ -49,7 +51,11 @@ class CommandDesk {
         /// The command's id; empty: too many pending commands of this client (busy). A stop is always
         /// accepted; earlier commands of this client that have not begun end as too_late.
         std::optional<std::uint32_t> submit(const Command& command);
-        /// The next outcome.
+        /// The next outcome. A stop is answered for an axis that does not answer: kUnread after the first
+        /// take() that finds it unread, or kUnended after that the axis's loop has read and not ended it. It
+        /// is carried out nevertheless, and how it ended is told then, too.
+        std::optional<Completion> take(base::Instant now);
+        /// The same of outcomes that the loop has told.
         std::optional<Completion> take();
         std::uint64_t number() const { return number_; }
 
@@ -91,6 +97,12 @@ class CommandDesk {
         std::uint32_t id = 0;
         Command command{};
     };
+    /// A stop that has not been answered.
+    struct OpenStop {
+        std::uint32_t id = 0;
+        bool is_read = false;
+        std::optional<base::Instant> seen{};  ///< the first take()
+    };
     struct Place {
         std::uint64_t number = 0;  ///< 0: free
         Sitter sitter{};
@@ -100,11 +112,14 @@ class CommandDesk {
         std::size_t open = 0;  ///< submitted without stops, outcome not yet taken
         base::Ring<Waiting, kMostWaiting> waiting{};
         base::Ring<Waiting, 3> stops{};
+        base::Ring<OpenStop, kMostWaiting> open_stops{};
         base::Ring<Completion, kMostWaiting + 4> ended{};
     };
 
     void leave(std::size_t which);
     void drop_waiting(Place& place, bool all);
+    static void open_stop(Place& place, std::uint32_t id);
+    static void answer_stops(Place& place, base::Instant now);
     static void complete(Place& place, const Completion& completion);
     bool take_stop(std::optional<Work>& work);
 
