@@ -204,7 +204,7 @@ test("the motor's values are shown with their age once its line is cut, and leav
     await page.context().close();
   }));
 
-test("the trend has an axis for each of position, velocity and current, and as many values of each", () =>
+test("the trend has an axis for each of position, velocity and current, and reads each about as often", () =>
   withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
     const page = await openPage(machine.url);
     await painted(page);
@@ -218,7 +218,8 @@ test("the trend has an axis for each of position, velocity and current, and as m
     const before = await counts();
     await page.waitForTimeout(6_000); // reads to count
     const [positions, velocities, currents] = (await counts()).map((count, i) => count - before[i]);
-    assert.ok(currents >= 6 && Math.abs(currents - positions) <= 3 && Math.abs(velocities - positions) <= 3, `${positions} positions, ${velocities} velocities, ${currents} currents`);
+    // Without a page that draws the trend it is one current to four positions.
+    assert.ok(currents >= 6 && 2 * currents > positions && 2 * velocities > positions, `${positions} positions, ${velocities} velocities, ${currents} currents`);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }));
