@@ -87,7 +87,7 @@ bool only_refused(const Expected& expected, std::string_view word) {
     if (word == "STEP") return in_if || in_step;
     if (word == "POWER_UP") return in_if || in_step;
     if (in_if && (word == "IF" || word == "OUT")) return true;
-    if (word == "NOT" && has(expected, Role::output)) return true;
+    if ((word == "NOT" || word == "SET" || word == "RESET") && has(expected, Role::output)) return true;
     if (has(expected, Role::tested) && (word == "THEN" || word == "AND" || word == "OR" || word == "XOR"))
         return true;
     return false;
