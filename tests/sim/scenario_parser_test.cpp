@@ -539,8 +539,7 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
         "stop none");
     EXPECT_EQ(mistake("motor stop below"),
               "the line ends too early; write a place, such as -2 rev or 500 counts");
-    EXPECT_EQ(mistake("motor stop below 1e rev"),
-              "\"e\" is no unit of SHAFT; write counts, rev or mm");
+    EXPECT_EQ(mistake("motor stop below 1e rev"), "\"e\" is no unit of SHAFT; write counts, rev or mm");
     EXPECT_EQ(mistake("motor stop above 300000 rev"),
               "a place is at most 1000000000 counts away; write a nearer one");
     EXPECT_EQ(mistake("motor stop above 3 rev spring 20"),
