@@ -8,6 +8,7 @@
 #include "registers/convert.h"
 #include "registers/details.h"
 #include "registers/midi.h"
+#include "registers/scale.h"
 #include "spelling/edit_distance.h"
 
 namespace nplc::sim {
@@ -22,6 +23,18 @@ constexpr std::string_view kMotor =
     "motor error, motor load, motor brake, motor power, motor stop, motor sensor, motor analogue, motor "
     "pulses, motor steps, motor supply, motor logic, motor temperature, motor encoder, motor upper_stop, "
     "motor lower_stop, motor reference or motor security";
+
+/// "5 rev" for a register of another unit.
+std::string wrong_unit(std::string_view text, const registers::Register& reg) {
+    const std::string_view unit =
+        text.substr(std::min(text.find_first_not_of("+-.0123456789 "), text.size()));
+    std::string units;
+    for (const std::string_view one : registers::units_of(reg.unit))
+        units += fmt::format("{}{}", units.empty() ? "" : ", ", one);
+    if (units.empty()) return fmt::format("{} has no unit; write the number alone", reg.name);
+    return fmt::format("\"{}\" is no unit of {}; write {}, or the number alone in its own steps", unit,
+                       reg.name, units);
+}
 
 }  // namespace
 
@@ -293,8 +306,11 @@ StoredRegister ActionParser::stored_register() {
 std::uint32_t ActionParser::stored_value(const registers::Register& reg, registers::Model model) {
     if (reader_.peek().kind == Token::Kind::word) return stored_bits(reg, model);
     const std::size_t begin = reader_.mark();
-    const registers::Parsed value = registers::parse(reader_.rest(), reg, model);
+    const std::string_view text = reader_.rest();
+    const registers::Parsed value = registers::parse(text, reg, model);
     if (value.error == registers::TextError::none) return registers::bits_of(reg.format, value.raw);
+    if (value.error == registers::TextError::wrong_unit)
+        reader_.refuse_at(std::min(begin + 1, reader_.mark()), wrong_unit(text, reg));
     reader_.refuse_at(
         begin, fmt::format("{} takes {} to {}, in its own steps or with a unit as macreg takes it", reg.name,
                            reg.min, reg.max));

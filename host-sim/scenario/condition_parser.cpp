@@ -183,10 +183,21 @@ ConditionParser::Measure ConditionParser::measure(std::string_view what, Value::
     for (const Unit& unit : units_of(kind, names_)) {
         if (take_unit(unit.name)) return {number * unit.size, unit};
     }
-    const Token& next = reader_.peek();
-    if (next.kind == Token::Kind::word && !knows(next.text) && looks_like_unit(next.text, names_))
-        refuse_unit(kind);
+    if (at_other_unit()) refuse_unit(number, kind);
     return {number, {}};
+}
+
+bool ConditionParser::at_other_unit() const {
+    const Token& next = reader_.peek();
+    return next.kind == Token::Kind::word && !knows(next.text) && !reader_.is(":=", 1) &&
+           is_meant_as_unit(next.text, names_);
+}
+
+/// The word behind a number, `mm` or `mm/s`.
+std::string ConditionParser::written_unit() const {
+    const bool is_rate = reader_.is("/", 1) && reader_.peek(2).kind == Token::Kind::word;
+    return is_rate ? fmt::format("{}/{}", reader_.peek().text, reader_.peek(2).text)
+                   : std::string(reader_.peek().text);
 }
 
 /// `mm`, or `mm/s` with or without blanks.
@@ -200,14 +211,15 @@ bool ConditionParser::take_unit(std::string_view name) {
     return true;
 }
 
-void ConditionParser::refuse_unit(Value::Kind kind) {
-    const std::string unit = fmt::format("{}{}{}", reader_.peek().text, reader_.is("/", 1) ? "/" : "",
-                                         reader_.is("/", 1) ? reader_.peek(2).text : "");
-    const std::string name = Value{.kind = kind}.name(names_);
-    const std::string known = units_in_words(kind, names_);
+void ConditionParser::refuse_unit(double number, Value::Kind kind) {
+    const std::string unit = written_unit();
+    const Value value{.kind = kind};
+    const std::string name = value.name(names_);
+    const std::string known = kind == Value::Kind::timer ? "ms or s" : units_in_words(kind, names_);
     if (known.empty()) reader_.refuse_next(fmt::format("{} has no unit; write the number alone", name));
-    const bool could_scale = kind != Value::Kind::torque && !names_.machine;
-    reader_.refuse_next(fmt::format("\"{}\" is no unit of {}; write {}{}", unit, name, known,
+    const bool could_scale = kind != Value::Kind::torque && kind != Value::Kind::timer && !names_.machine;
+    reader_.refuse_next(fmt::format("\"{}\" is no unit of {}; write {}{}{}", unit, name, known,
+                                    unit_hint(number, unit, units_of(kind, names_), value, names_),
                                     could_scale ? "; SCALE 1 rev = 5 mm; in the program adds mm" : ""));
 }
 

@@ -136,7 +136,10 @@ class ConditionParser {
     Condition group();
     Measure measure(std::string_view what, Value::Kind kind);
     bool take_unit(std::string_view name);
-    [[noreturn]] void refuse_unit(Value::Kind kind);
+    /// A word behind a number that is meant as a unit.
+    bool at_other_unit() const;
+    std::string written_unit() const;
+    [[noreturn]] void refuse_unit(double number, Value::Kind kind);
     void edge(Event& event);
     std::optional<Value> lookup(std::string_view word) const;
     std::string known_values() const;

@@ -87,17 +87,18 @@ void ConditionParser::set_point_value(Condition& condition) {
 ConditionParser::Measure ConditionParser::point_measure(const set_points::SetPoint& point,
                                                         std::string_view what) {
     const double number = reader_.number(what);
-    std::vector<Unit> units{{point.unit, point.steps_per_unit}};
-    if (point.kind == set_points::ValueKind::timer) units = {{"ms", 1}, {"s", 1000}};
+    const std::vector<Unit> units = units_of(point);
     for (const Unit& unit : units) {
-        if (!unit.name.empty() && take_unit(unit.name)) return {number * unit.size, unit};
+        if (take_unit(unit.name)) return {number * unit.size, unit};
     }
-    const Token& next = reader_.peek();
-    if (next.kind == Token::Kind::word && !knows(next.text) && looks_like_unit(next.text, names_)) {
-        reader_.refuse_next(point.unit.empty()
-                                ? fmt::format("{} has no unit; write the number alone", point.name)
-                                : fmt::format("\"{}\" is no unit of {}; write {}", next.text, point.name,
-                                              units.size() > 1 ? "ms or s" : point.unit));
+    if (at_other_unit()) {
+        if (units.empty())
+            reader_.refuse_next(fmt::format("{} has no unit; write the number alone", point.name));
+        const std::string unit = written_unit();
+        reader_.refuse_next(
+            fmt::format("\"{}\" is no unit of {}; write {}{}", unit, point.name,
+                        units.size() > 1 ? "ms or s" : point.unit,
+                        unit_hint(number, unit, units, Value{.kind = Value::Kind::set_point}, names_)));
     }
     return {number * point.steps_per_unit, {point.unit, point.steps_per_unit}};
 }

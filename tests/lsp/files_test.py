@@ -98,6 +98,105 @@ class OtherFiles(Case):
         self.assertGreater(len(self.ask("semanticTokens/full", uri)["data"]), 20)
 
 
+SET = """at 1 s set Length := 90 mm and Blade_Time := 200 ms
+expect at 2 s Length = 90 mm +- 1 mm   # Length stays
+when Length changes pulse Start 50 ms
+expect ordered "POSITION(Length)" by 3 s, "never"
+log "Length"
+end at 4 s
+"""
+
+
+class SetPoints(Case):
+    """A scenario sets and expects its program's set-points, and knows registers by the program's names in orders."""
+
+    def setUp(self):
+        super().setUp()
+        self.text = example("cut_to_length.seq")
+        self.program = self.open(self.text, "cut_to_length.seq")
+        self.scenario = self.open(SET, "cut_to_length.scn")
+
+    def renamed(self, uri, place, name):
+        changes = self.client.at("textDocument/rename", uri, place, newName=name)["changes"]
+        return {one: edited(SET if one == self.scenario else self.text, changes[one]) for one in changes}
+
+    def test_a_set_point_is_renamed_from_program_and_scenario(self):
+        wanted = SET.replace("Length", "Way").replace("Way stays", "Length stays").replace('log "Way"', 'log "Length"')
+        program = self.text.replace("SET_POINT Length", "SET_POINT Way").replace("POSITION(Length)", "POSITION(Way)")
+        for uri, place in (
+            (self.program, place_of(self.text, "SET_POINT Length", 12)),
+            (self.program, place_of(self.text, "POSITION(Length", 11)),
+            (self.scenario, place_of(SET, "Length")),
+            (self.scenario, place_of(SET, "Length = 90")),
+            (self.scenario, place_of(SET, "Length changes")),
+            (self.scenario, place_of(SET, "POSITION(Length", 11)),
+        ):
+            texts = self.renamed(uri, place, "Way")
+            self.assertEqual(texts, {self.program: program, self.scenario: wanted})
+
+    def test_one_of_a_timer_is_renamed_where_it_is_used(self):
+        texts = self.renamed(self.scenario, place_of(SET, "Blade_Time"), "Cut_Time")
+        self.assertEqual(texts, {self.program: self.text.replace("Blade_Time", "Cut_Time"), self.scenario: SET.replace("Blade_Time", "Cut_Time")})
+
+    def test_a_name_of_var_motor_is_renamed_in_orders(self):
+        text = 'expect ordered "INIT(Soft)" by 1 s\nend at 2 s\n'
+        uri = self.open(text, "cut_to_length-soft.scn")
+        changes = self.client.at("textDocument/rename", self.program, place_of(self.text, "Soft"), newName="Gentle")["changes"]
+        self.assertEqual(edited(text, changes[uri]), text.replace("Soft", "Gentle"))
+
+    def test_a_word_that_is_no_set_point_stays(self):
+        text = self.text.replace("SET_POINT Pieces", "SET_POINT load").replace(":= Pieces", ":= load")
+        self.client.change(self.program, 2, [{"text": text}])
+        scenario = "at 1 s motor load 5, set load := 4\nend at 2 s\n"
+        self.client.change(self.scenario, 2, [{"text": scenario}])
+        changes = self.client.at("textDocument/rename", self.program, place_of(text, "SET_POINT load", 12), newName="Count")["changes"]
+        self.assertEqual(edited(scenario, changes[self.scenario]), "at 1 s motor load 5, set Count := 4\nend at 2 s\n")
+
+    def test_a_name_that_scenarios_have_for_something_else_is_refused(self):
+        for name in ("Torque", "shaft", "Speed", "Start", "P2"):
+            with self.assertRaises(Refused, msg=name):
+                self.client.at("textDocument/rename", self.scenario, place_of(SET, "Length"), newName=name)
+
+    def test_definition_references_highlights_and_hover(self):
+        found = self.client.at("textDocument/definition", self.scenario, place_of(SET, "Length = 90"))
+        self.assertEqual((found["uri"], found["range"]["start"]), (self.program, place_of(self.text, "Length AT")))
+        for uri, place in ((self.scenario, place_of(SET, "Length")), (self.program, place_of(self.text, "Length AT"))):
+            found = self.client.at("textDocument/references", uri, place, context={"includeDeclaration": True})
+            self.assertEqual(sorted(one["uri"] for one in found), [self.scenario] * 4 + [self.program] * 2)
+        self.assertEqual(len(self.client.at("textDocument/documentHighlight", self.scenario, place_of(SET, "Length"))), 4)
+        text = self.client.at("textDocument/hover", self.scenario, place_of(SET, "Length"))["contents"]["value"]
+        self.assertIn("RANGE 10 .. 200 mm STEP 0.1 mm", text)
+        text = self.client.at("textDocument/hover", self.scenario, place_of(SET, "Blade_Time"))["contents"]["value"]
+        self.assertIn("RANGE 100 ms .. 5 s", text)
+        self.assertEqual(self.client.at("textDocument/prepareRename", self.scenario, place_of(SET, "Length"))["placeholder"], "Length")
+
+    def test_completion(self):
+        text = "at 1 s set Len\nexpect Le\nend at 2 s\n"
+        self.client.change(self.scenario, 2, [{"text": text}])
+        points = ["Length", "Speed", "Blade_Time", "Pieces"]
+        self.assertEqual(self.labels(self.scenario, place_of(text, "Len", 3)), points)
+        offered = self.labels(self.scenario, place_of(text, "Le\n", 2))
+        self.assertEqual(offered[:6], ["Start", "Ack", "Blade", "Ready", "Alarm", "Length"])
+        for name in (*points, "set", "recipe"):
+            self.assertIn(name, offered)
+        # Of the program: a time or a count where it is a value, one with AT where a register is selected.
+        text = self.text.replace("COUNTER := Pieces", "COUNTER := Pi").replace("POSITION(Length)", "POSITION(Le)")
+        self.client.change(self.program, 2, [{"text": text}])
+        offered = self.labels(self.program, place_of(text, "COUNTER := Pi", 13))
+        self.assertIn("Pieces", offered)
+        self.assertNotIn("Length", offered)
+        offered = self.labels(self.program, place_of(text, "POSITION(Le", 11))
+        self.assertIn("Length", offered)
+        self.assertNotIn("Pieces", offered)
+
+    def test_a_misspelt_set_point_is_mended(self):
+        text = "at 1 s set Lenght := 90 mm\nend at 2 s\n"
+        self.client.change(self.scenario, 2, [{"text": text}])
+        told = self.client.diagnostics(self.scenario, 2)
+        actions = self.actions(self.scenario, told[0])
+        self.assertIn("Write 'Length'", [action["title"] for action in actions])
+
+
 class Includes(Case):
     def setUp(self):
         super().setUp()

@@ -26,6 +26,70 @@ test("the trend does not draw a tremble as high as a move", async () => {
   assert.deepEqual(spanOf(null, null, 20), [-10, 10]);
 });
 
+const term = (step, next, error = false) => ({ step, next, input: error ? 0x80 : 0, index: 0 });
+/** Wait (1) blinks and sees an edge; Work (2) and Fault (3) do not. */
+const kBlinker = [
+  { number: 0, name: "POWER_UP" }, { number: 1, name: "Wait" }, { number: 2, name: "Work" }, { number: 3, name: "Fault" },
+  { number: 4, name: "Wait_Lamp_dark", made_for: "copy of 'Wait' for: Lamp dark", copy_of: 1 },
+  { number: 5, name: "Wait_Go_off", made_for: "copy of 'Wait' for: Go was off", copy_of: 1 },
+];
+
+test("a step and the copies that the compiler made of it are one box", async () => {
+  const { Boxes, numbersInWords, waysBetween, waysOut } = await part("boxes");
+  const { stepsOf } = await part("table");
+  const boxes = new Boxes([0, 1, 2, 3, 4, 5], kBlinker);
+  assert.deepEqual([...boxes.steps], [[0, [0]], [1, [1, 4, 5]], [2, [2]], [3, [3]]]);
+  assert.deepEqual([0, 1, 2, 3, 4, 5].map((step) => boxes.of(step)), [0, 1, 2, 3, 1, 1]);
+  const steps = stepsOf([term(0, 1), term(1, 4), term(1, 5), term(1, 3, true), term(2, 1), term(2, 4), term(2, 2), term(3, 1), term(4, 1), term(4, 3, true), term(5, 2), term(5, 3)]);
+  const ways = waysBetween(steps.values(), boxes).map((way) => `${way.from}>${way.to}${way.isError ? " error" : ""}`);
+  assert.deepEqual(ways.sort(), ["0>1", "1>2", "1>3", "2>1", "2>2", "3>1"]); // 5>3 needs no ERROR
+  const out = (step) => waysOut(steps.get(step), boxes).map((way) => [way.to, way.terms.length]);
+  assert.deepEqual(out(1), [[4, 1], [5, 1], [3, 1]]); // within the box each apart
+  assert.deepEqual(out(2), [[1, 2], [2, 1]]); // to all copies as one
+  assert.equal(numbersInWords([9, 1, 4, 5, 7, 6]), "1, 4–7, 9");
+  assert.equal(numbersInWords([1, 2]), "1, 2");
+});
+
+test("only a step that is there is the original of a copy", async () => {
+  const { Boxes } = await part("boxes");
+  const of = (numbers, named) => Object.fromEntries(new Boxes(numbers, named).steps);
+  assert.deepEqual(of([1, 4], []), { 1: [1], 4: [4] });
+  assert.deepEqual(of([4], kBlinker), { 4: [4] });
+  // A step of a later CALL is one of its own, and its copies are its own.
+  const call = [
+    { number: 1, name: "A" }, { number: 2, name: "B", made_for: "SEQUENCE Stamp", copy_of: 1 },
+    { number: 3, name: "A_dark", made_for: "copy of 'A' for: Lamp dark", copy_of: 1 }, { number: 4, name: "B_dark", made_for: "copy of 'B' for: Lamp dark", copy_of: 1 },
+  ];
+  assert.deepEqual(of([1, 2, 3, 4], call), { 1: [1, 3], 2: [2, 4] });
+  // Names from elsewhere may be anything.
+  const round = [{ number: 1, name: "A", made_for: "copy of 'B' for: x" }, { number: 2, name: "B", made_for: "copy of 'A' for: x" }, { number: 0, name: "C", made_for: "copy of 'A' for: x" }];
+  assert.deepEqual(of([0, 1, 2], round), { 0: [0], 1: [1], 2: [2] });
+  assert.deepEqual(of([0, 1], [{ number: 1, name: "A", made_for: "copy of 'Z' for: x", copy_of: 1 }]), { 0: [0], 1: [1] });
+});
+
+test("the last path and the breakpoints are those of boxes", async () => {
+  const { Axis } = await part("state");
+  const axis = new Axis({ name: "x", motor: "MAC140", counts_per_rev: 4096, samples_per_second: 520.83, error_bits: [], modes: {} });
+  const byte = (step, next) => [0xc0 | step, 0, 0, next, 0x80, 0, 0, 0];
+  const table = Uint8Array.from([...byte(0, 1), ...byte(1, 4), ...byte(4, 5), ...byte(5, 2), ...byte(2, 1), ...byte(3, 1), 0x3f, 0, 0, 0, 0, 0, 0, 0]);
+  axis.takeProgram({ table: btoa(String.fromCharCode(...table)), crc: 1, symbols: { steps: kBlinker } });
+  const image = (step, path = []) => axis.takeImage({ full: false, age: 0, r: { STEP: step, UPTIME: 0 }, path }, 0);
+  image(0);
+  image(1);
+  for (let i = 0; i < 100; ++i) image([1, 4][i % 2]); // a lamp that blinks
+  image(5);
+  assert.equal(axis.box, 1);
+  assert.equal(axis.boxName(5), "Wait");
+  image(2, [2]);
+  image(4);
+  assert.deepEqual(axis.boxPath, [0, 1, 2, 1]);
+  assert.equal(axis.breaksAt(1), false);
+  axis.r.BREAK_LOW = 1 << 5;
+  assert.equal(axis.breaksAt(1), true);
+  assert.equal(axis.breaksAt(2), false);
+  assert.equal(axis.boxNames([1, 4, 2]), "Wait, Work");
+});
+
 test("the bundle that is checked in is made from its sources", () => {
   for (const name of ["src", "build.mjs", "tsconfig.json"]) cpSync(join(source, "page", name), join(folder, name), { recursive: true });
   execFileSync(join(folder, "node_modules", ".bin", "tsc"), ["--noEmit"], { cwd: folder, stdio: "inherit" });

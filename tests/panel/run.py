@@ -30,7 +30,8 @@ def copy_whole(source, target):
 
 
 def main():
-    root, programs, build, *names = sys.argv[1:]
+    root, programs, build = (os.path.abspath(path) for path in sys.argv[1:4])
+    names = sys.argv[4:]
     for program in NEEDED:
         if not shutil.which(program):
             fail(f"{program} is missing; run tools/setup full")

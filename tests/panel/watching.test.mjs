@@ -91,13 +91,102 @@ for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((
       while (Number(await page.evaluate(() => document.body.dataset.step)) !== steps().at(-1)) assert.ok(Date.now() < end, "it never shows the active step");
       const program = client.messages.find((m) => m.t === "program");
       assert.equal(await textOf(page, "#program"), program.symbols.program);
-      assert.equal(await page.locator(".box").count(), new Set([...Buffer.from(program.table, "base64")].filter((_, i) => i % 8 === 0).map((b) => b & 63).filter((s) => s !== 63)).size);
+      const numbers = new Set([...Buffer.from(program.table, "base64")].filter((_, i) => i % 8 === 0).map((b) => b & 63).filter((s) => s !== 63));
+      const copies = program.symbols.steps.filter((step) => step.made_for?.startsWith("copy of "));
+      assert.equal(await page.locator(".box").count(), numbers.size - copies.length);
       assert.deepEqual(page.complaints, []);
       client.close();
       await page.context().close();
     });
   });
 }
+
+const kBlinker = `PROGRAM Blinker
+MOTOR MAC140;
+VAR_INPUT Go AT IN0 : BOOL; Ack AT IN1 : BOOL; END_VAR
+VAR_OUTPUT Lamp AT OUT0 : BOOL; Ready AT OUT1 : BOOL; END_VAR
+ON ERROR NEXT := Fault;
+POWER_UP NEXT := Wait; END_POWER_UP
+STEP Wait: OUT Ready; OUT Lamp BLINKING T#300ms; IF R_TRIG(Go) THEN NEXT := Work; END_IF END_STEP
+STEP Work: OUT Ready; IF Ack THEN NEXT := Wait; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := Wait; END_IF END_STEP
+END_PROGRAM
+`;
+
+// Wait is 1; its copies are 4 (Lamp dark), 5 (Go was off) and 6 (both), as the compiler numbers them behind all steps.
+test("a step that blinks and sees an edge is one box with all its copies", () =>
+  withMachine(file("seq", kBlinker), {}, async (machine) => {
+    const client = new Client(machine.url);
+    await client.opened;
+    const page = await openPage(machine.url);
+    await painted(page);
+    const boxes = () => page.$$eval(".box", (all) => all.map((box) => [box.dataset.step, box.querySelector(".name").textContent, box.querySelector(".number").textContent]));
+    assert.deepEqual(await boxes(), [["0", "POWER_UP", "0"], ["1", "Wait", "1, 4–6 · Ready (Lamp)"], ["2", "Work", "2 · Ready"], ["3", "Fault", "3"]]);
+    // Lit whichever copy is active.
+    await page.waitForFunction(() => {
+      const seen = (window.seen ??= new Set());
+      const step = document.body.dataset.step;
+      if (step !== "0") seen.add(`${step} ${[...document.querySelectorAll(".box.active")].map((box) => box.dataset.step)}`);
+      return seen.has("5 1") && seen.has("6 1");
+    });
+    assert.deepEqual(await page.evaluate(() => [...window.seen].filter((one) => !one.endsWith(" 1"))), []);
+    assert.match(await page.getAttribute('.box[data-step="1"]', "aria-label"), /^Wait 1, 4–6 · Ready \(Lamp\), with 3 copies, active$/);
+    assert.equal(await page.getAttribute('.box[data-step="2"]', "aria-label"), "Work 2 · Ready");
+    assert.equal(await textOf(page, "#drawing-words"), "Active step: Wait");
+    // The branches are those of the active copy: only a copy that has seen Go off leads to Work.
+    assert.equal(await textOf(page, "#waits-title"), "Active step: Wait");
+    await hasText(page, "#waits .quiet", "copy of 'Wait' for: Go was off");
+    await page.waitForFunction(() => [...document.querySelectorAll(".card")].some((card) => card.textContent.includes("→ Work") && card.querySelector(".chip.no")?.textContent.includes("Go")));
+    await page.hover('.box[data-step="2"]');
+    await hasText(page, "#waits-title", "Step Work (not active)");
+    await hasText(page, "#waits", "→ Wait");
+    await page.hover('.box[data-step="1"]');
+    await hasText(page, "#waits-title", "Active step: Wait");
+    await page.mouse.move(2, 2);
+    // Found by the name and the number of a copy too.
+    for (const text of ["wait_lamp_dark", "6", "Wait"]) {
+      await page.fill("#search", text);
+      assert.equal(await textOf(page, "#search-count"), "1 found");
+      assert.equal(await page.getAttribute(".box.found", "data-step"), "1");
+    }
+    await page.fill("#search", "");
+    // What was opened stays open while it blinks.
+    await page.focus("#waits .term");
+    const before = await page.evaluate(() => document.body.dataset.step);
+    await page.waitForFunction((step) => document.body.dataset.step !== step, before);
+    assert.ok(await page.evaluate(() => document.activeElement.classList.contains("term")), "the keyboard stays");
+    // The last path is one of boxes, and blinking does not push it out.
+    await operate(page, machine.token);
+    const act = async (action) => {
+      await page.fill("#sim-action", action);
+      await page.click("#sim-form button");
+    };
+    await act("pulse Go 100 ms");
+    await inStep(page, 2);
+    await act("pulse Ack 100 ms");
+    await page.waitForFunction(() => document.querySelector(".box.active")?.dataset.step === "1");
+    await page.evaluate(() => (window.changes = { count: 0, last: "" }));
+    await page.waitForFunction(() => {
+      const step = document.body.dataset.step;
+      if (step !== window.changes.last) window.changes = { count: window.changes.count + 1, last: step };
+      return window.changes.count > 8;
+    });
+    assert.equal(await page.locator(".way.taken").count(), 2); // from Wait to Work and back
+    // A breakpoint is one of all copies.
+    await page.click('.box[data-step="1"]');
+    await page.click("#break");
+    const bits = (1 << 1) | (1 << 4) | (1 << 5) | (1 << 6);
+    await client.until((m) => m.t === "image" && m.r?.BREAK_LOW === bits);
+    await hasText(page, "#state-text", "held at a breakpoint");
+    assert.match(await page.getAttribute('.box[data-step="1"]', "aria-label"), /, active, breakpoint$/);
+    const since = client.messages.length;
+    await page.click("#break");
+    await client.until((m) => client.messages.indexOf(m) >= since && m.t === "image" && m.r?.BREAK_LOW === 0);
+    await page.waitForFunction(() => !document.querySelector(".box.breaks"));
+    assert.deepEqual(page.complaints, []);
+    client.close();
+    await page.context().close();
+  }));
 
 test("60 steps: laid out without boxes that overlap, found by name, followed", async () => {
   const steps = Array.from({ length: 60 }, (_, i) => `STEP S${i}:\n    ${i === 59 ? "OWN ERROR;\n    " : ""}ENTRY TIMER := T#${i % 7 === 0 ? 300 : 40}ms;\n    IF Go THEN NEXT := S${(i * 7 + 3) % 60}; ELSIF TIMER.Q THEN NEXT := S${(i + 1) % 60}; END_IF\nEND_STEP\n`);

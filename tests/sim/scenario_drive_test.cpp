@@ -112,8 +112,13 @@ TEST(ScenarioDrive, WhatTheFlashHoldsIsGivenFromTheStart) {
     EXPECT_EQ(
         said_of("at 1 s motor HW_SETUP := 1", "MAC800"),
         "a register is stored before the run begins; write such as motor HW_SETUP := NOFILT alone in a line");
-    EXPECT_EQ(said_of("motor I2TLIM := 5 rev"),
+    EXPECT_EQ(said_of("motor I2TLIM := 70000"),
               "I2TLIM takes 0 to 65535, in its own steps or with a unit as macreg takes it");
+    EXPECT_EQ(said_of("motor I2TLIM := 5 rev"), "I2TLIM has no unit; write the number alone");
+    EXPECT_EQ(
+        placed("motor ACC_EMERG := 5 mm"),
+        "1:22 \"mm\" is no unit of ACC_EMERG; write rpm/s, rev/s2, counts/s2, or the number alone in its "
+        "own steps");
 }
 
 TEST(ScenarioDrive, APlantFileIsNamedOnceAndInQuotes) {

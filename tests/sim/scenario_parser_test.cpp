@@ -246,11 +246,29 @@ TEST(ScenarioParser, MistakesHaveColumns) {
 }
 
 TEST(ScenarioParser, MistakesInUnits) {
-    EXPECT_EQ(at_column("expect P_IST = 80 rpm"), "19: \"rpm\" is no unit of P_IST; write counts, rev or mm");
+    EXPECT_EQ(at_column("expect P_IST = 80 rpm"),
+              "19: \"rpm\" is no unit of P_IST; write counts, rev or mm (V_IST has rpm)");
     EXPECT_EQ(at_column("expect V_IST = 80 mm"),
-              "19: \"mm\" is no unit of V_IST; write counts, rpm, rev/s, mm/s or mm/min");
+              "19: \"mm\" is no unit of V_IST; write counts, rpm, rev/s, mm/s or mm/min (P_IST has mm)");
+    EXPECT_EQ(at_column("expect V_IST = 80 cm/s"),
+              "19: \"cm/s\" is no unit of V_IST; write counts, rpm, rev/s, mm/s or mm/min (80 cm/s are 800 "
+              "mm/s)");
     EXPECT_EQ(at_column("expect P_IST = 80 mm/s"),
-              "19: \"mm/s\" is no unit of P_IST; write counts, rev or mm");
+              "19: \"mm/s\" is no unit of P_IST; write counts, rev or mm (V_IST has mm/s)");
+    EXPECT_EQ(at_column("expect P_IST = 80 mmm"), "19: \"mmm\" is no unit of P_IST; did you mean mm?");
+    EXPECT_EQ(at_column("expect V_IST = 80 rmp"), "19: \"rmp\" is no unit of V_IST; did you mean rpm?");
+    EXPECT_EQ(at_column("expect COUNTER = 5 pcs"), "20: COUNTER has no unit; write the number alone");
+    EXPECT_EQ(at_column("expect TIMER = 5 mm"),
+              "18: \"mm\" is no unit of TIMER; write ms or s (P_IST has mm)");
+    EXPECT_EQ(at_column("expect TIMER = 5 mss"), "18: \"mss\" is no unit of TIMER; did you mean ms?");
+    // Words of the language and names are no units, misspelt ones neither.
+    for (const char* with :
+         {"expect COUNTER = 5 at 3 s", "when COUNTER = 5 log \"x\"", "when COUNTER = 5 Start := 1",
+          "when COUNTER = 5 rises pulse Start 50 ms", "expect COUNTER = 5 and Grip by 2 s"})
+        EXPECT_TRUE(parse(with).mistakes.empty()) << with;
+    EXPECT_EQ(at_column("expect COUNTER = 5 att 3 s"),
+              "20: \"att\" is out of place; write one statement in a line, actions separated by commas");
+    EXPECT_EQ(at_column("when COUNTER = 5 Strat := 1"), "18: \"Strat\" is no input; did you mean Start?");
     EXPECT_EQ(at_column("expect P_IST = 80 mm +- 0.1"),
               "25: the tolerance has no unit; write mm behind it, or counts, rev or mm");
     EXPECT_EQ(at_column("expect COUNTER = 5 mm"), "20: COUNTER has no unit; write the number alone");
@@ -425,10 +443,23 @@ TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
     const Names names = names_with_set_points();
     const auto wrong = [&](const std::string& text) { return all_mistakes(text, names); };
     EXPECT_EQ(wrong("expect Lenght = 90 mm"), "1:8: \"Lenght\" is not known; did you mean Length?\n");
-    EXPECT_EQ(wrong("expect Length = 90 cm"), "1:20: \"cm\" is no unit of Length; write mm\n");
-    EXPECT_EQ(wrong("expect Length = 90 mm +- 1 ms"), "1:28: \"ms\" is no unit of Length; write mm\n");
+    EXPECT_EQ(wrong("expect Length = 90 cm"),
+              "1:20: \"cm\" is no unit of Length; write mm (90 cm are 900 mm)\n");
+    EXPECT_EQ(wrong("expect Length = 90 rpm"),
+              "1:20: \"rpm\" is no unit of Length; write mm (V_IST has rpm)\n");
+    EXPECT_EQ(wrong("expect Length = 90 mmm"), "1:20: \"mmm\" is no unit of Length; did you mean mm?\n");
+    EXPECT_EQ(wrong("expect Length = 90 mm/s"),
+              "1:20: \"mm/s\" is no unit of Length; write mm (V_IST has mm/s)\n");
+    EXPECT_EQ(wrong("expect Length = 90 mm +- 1 ms"),
+              "1:28: \"ms\" is no unit of Length; write mm (Dwell has ms)\n");
+    EXPECT_EQ(wrong("expect Pieces = 3 pcs"), "1:19: Pieces has no unit; write the number alone\n");
+    EXPECT_EQ(wrong("expect Dwell = 2 min"),
+              "1:18: \"min\" is no unit of Dwell; write ms or s (2 min are 120000 ms)\n");
+    EXPECT_EQ(wrong("expect P_IST = 2 ms"),
+              "1:18: \"ms\" is no unit of P_IST; write counts, rev or mm (Dwell has ms)\n");
     EXPECT_EQ(wrong("expect Pieces = 3 mm"), "1:19: Pieces has no unit; write the number alone\n");
-    EXPECT_EQ(wrong("expect Dwell = 2 mm"), "1:18: \"mm\" is no unit of Dwell; write ms or s\n");
+    EXPECT_EQ(wrong("expect Dwell = 2 mm"),
+              "1:18: \"mm\" is no unit of Dwell; write ms or s (Length has mm)\n");
     EXPECT_EQ(wrong("expect Length = 300 mm"),
               "1:17: 300 mm is out of range; Length takes 10 mm to 200 mm in steps of 0.1 mm\n");
     EXPECT_EQ(wrong("expect Length = 90.05 mm"),
@@ -508,9 +539,7 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
         "stop none");
     EXPECT_EQ(mistake("motor stop below"),
               "the line ends too early; write a place, such as -2 rev or 500 counts");
-    EXPECT_EQ(mistake("motor stop below 1e rev"),
-              "\"e\" is out of place; write one statement in a line, actions "
-              "separated by commas");
+    EXPECT_EQ(mistake("motor stop below 1e rev"), "\"e\" is no unit of SHAFT; write counts, rev or mm");
     EXPECT_EQ(mistake("motor stop above 300000 rev"),
               "a place is at most 1000000000 counts away; write a nearer one");
     EXPECT_EQ(mistake("motor stop above 3 rev spring 20"),

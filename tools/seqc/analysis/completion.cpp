@@ -87,7 +87,7 @@ bool only_refused(const Expected& expected, std::string_view word) {
     if (word == "STEP") return in_if || in_step;
     if (word == "POWER_UP") return in_if || in_step;
     if (in_if && (word == "IF" || word == "OUT")) return true;
-    if (word == "NOT" && has(expected, Role::output)) return true;
+    if ((word == "NOT" || word == "SET" || word == "RESET") && has(expected, Role::output)) return true;
     if (has(expected, Role::tested) && (word == "THEN" || word == "AND" || word == "OR" || word == "XOR"))
         return true;
     return false;
@@ -156,6 +156,19 @@ void add_definitions(Proposals& result, const Program& program, Kind kind, Propo
     }
 }
 
+/// Those of a register are selected; the others are times and counts.
+void add_set_points(Proposals& result, const Program& program, bool of_register) {
+    for (const Definition& definition : program.definitions()) {
+        const auto* reg = program.register_named(definition.name);
+        if (definition.kind != Kind::set_point || definition.name_span == result.replaced ||
+            (reg != nullptr) != of_register)
+            continue;
+        result.list.push_back({of_register ? Proposal::Kind::register_name : Proposal::Kind::value,
+                               std::string(definition.name), std::string(definition.name), false,
+                               fmt::format("set-point {}", program.text(definition.whole)), ""});
+    }
+}
+
 void add_registers(Proposals& result, const Program& program, bool selectable_only, bool assigns) {
     for (const registers::Register& reg : registers::map_of(program.symbols().motor)) {
         if (reg.number > 127 || (selectable_only && !selection_of(reg.number))) continue;
@@ -220,6 +233,7 @@ void add_names(Proposals& result, const Program& program, const Context& context
     }
     if (has(expected, Role::register_name)) {
         add_definitions(result, program, Kind::motor_variable, Proposal::Kind::register_name);
+        add_set_points(result, program, true);
         add_registers(result, program, !has(expected, "REG"), false);
     }
     if (has(expected, Role::constant)) {
@@ -228,6 +242,7 @@ void add_names(Proposals& result, const Program& program, const Context& context
                 result.list.push_back({Proposal::Kind::value, std::string(definition.name),
                                        std::string(definition.name), false, "", ""});
         }
+        add_set_points(result, program, false);
     }
     if (has(expected, Role::motor)) {
         for (std::string_view name : motor_names())
@@ -268,7 +283,9 @@ Proposals complete(const Program& program, std::uint32_t offset) {
         if (proposal.kind == Proposal::Kind::keyword) return 1;
         if (proposal.kind == Proposal::Kind::command) return 2;
         if (proposal.kind != Proposal::Kind::register_name) return 0;
-        return program.find(Kind::motor_variable, proposal.label) != nullptr ? 1 : 3;
+        const bool is_own = program.find(Kind::motor_variable, proposal.label) != nullptr ||
+                            program.find(Kind::set_point, proposal.label) != nullptr;
+        return is_own ? 1 : 3;
     };
     std::stable_sort(result.list.begin(), result.list.end(),
                      [&](const Proposal& a, const Proposal& b) { return rank(a) < rank(b); });

@@ -80,6 +80,11 @@ std::string definition_text(const Program& program, const Definition& definition
             }
             return reg != nullptr ? text + register_text(program, *reg) : text;
         }
+        case Kind::set_point: {
+            std::string text = fmt::format("set-point `{}`\n\n", program.text(definition.whole));
+            const auto* reg = program.register_named(definition.name);
+            return reg != nullptr ? text + register_text(program, *reg) : text;
+        }
         case Kind::input:
             return fmt::format("input **{}** at {}", definition.name, definition.address);
         case Kind::output:

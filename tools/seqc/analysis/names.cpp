@@ -12,7 +12,7 @@ namespace {
 
 bool is_signal(Kind kind) {
     return kind == Kind::input || kind == Kind::output || kind == Kind::motor_variable ||
-           kind == Kind::constant;
+           kind == Kind::constant || kind == Kind::set_point;
 }
 
 /// An existing name that conflicts with a new one.

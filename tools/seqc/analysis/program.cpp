@@ -38,16 +38,16 @@ bool fits(Kind kind, Role role, bool in_property) {
         case Role::motor_variable:
         case Role::command:
         case Role::register_name:
-            return kind == Kind::motor_variable;
+            return kind == Kind::motor_variable || kind == Kind::set_point;
         case Role::constant:
-            return kind == Kind::constant;
+            return kind == Kind::constant || kind == Kind::set_point;
         case Role::property:
             return kind == Kind::property;
         case Role::sequence:
             return kind == Kind::sequence;
         case Role::argument:
             return kind == Kind::input || kind == Kind::output || kind == Kind::motor_variable ||
-                   kind == Kind::constant || kind == Kind::step;
+                   kind == Kind::constant || kind == Kind::step || kind == Kind::set_point;
         default:
             return false;
     }
@@ -136,20 +136,22 @@ void Program::define() {
                 definitions_.push_back({Kind::property, name, use.span, declaration_of(use.span), {}});
                 break;
             default: {
-                const Kind kind = use.role == Role::input    ? Kind::input
-                                  : use.role == Role::output ? Kind::output
-                                                             : Kind::motor_variable;
+                const Kind kind = use.role == Role::input       ? Kind::input
+                                  : use.role == Role::output    ? Kind::output
+                                  : use.role == Role::set_point ? Kind::set_point
+                                                                : Kind::motor_variable;
                 definitions_.push_back({kind, name, use.span, declaration_of(use.span), {}});
             }
         }
     }
-    for (const auto* variables : {&tree_.inputs, &tree_.outputs, &tree_.motor_variables}) {
-        for (const ast::Variable& variable : *variables) {
-            for (Definition& definition : definitions_) {
-                if (definition.name_span == variable.name.span) definition.address = variable.address.text;
-            }
+    const auto note_address = [this](const auto& declared) {
+        for (Definition& definition : definitions_) {
+            if (definition.name_span == declared.name.span) definition.address = declared.address.text;
         }
-    }
+    };
+    for (const auto* variables : {&tree_.inputs, &tree_.outputs, &tree_.motor_variables})
+        std::for_each(variables->begin(), variables->end(), note_address);
+    std::for_each(tree_.set_points.begin(), tree_.set_points.end(), note_address);
 }
 
 std::size_t Program::target_of(const ast::Use& use) const {

@@ -27,7 +27,8 @@ enum class Kind : std::uint8_t {
     constant,
     property,
     sequence,
-    parameter
+    parameter,
+    set_point
 };
 
 struct Definition {
@@ -35,7 +36,7 @@ struct Definition {
     std::string_view name;
     Span name_span;
     Span whole;                ///< the block or declaration
-    std::string_view address;  ///< for an input, output or name of VAR_MOTOR, as written
+    std::string_view address;  ///< for an input, output, name of VAR_MOTOR or set-point with AT, as written
 };
 
 struct Reference {

@@ -31,6 +31,7 @@ int symbol_kind(Kind kind) {
         case Kind::motor_variable:
         case Kind::constant:
         case Kind::parameter:
+        case Kind::set_point:
             return 14;  // Constant
         case Kind::property:
             return 7;  // Property
@@ -144,6 +145,9 @@ Json rename(Workspace& workspace, const Json& params) {
     }
     const analysis::Renaming renaming = analysis::rename(at.program(), at.offset, new_name);
     if (!renaming.error.empty()) throw ResponseError(kRequestFailed, renaming.error);
+    const Kind kind = at.program().definition_of(*at.program().reference_at(at.offset))->kind;
+    if (kind == Kind::set_point && is_value_of_scenarios(new_name))
+        throw ResponseError(kRequestFailed, fmt::format("'{}' means something else in scenarios", new_name));
     Json changes = Json::object();
     const auto add = [&](const Json& location) {
         Json& list = changes[location["uri"].get<std::string>()];

@@ -39,7 +39,8 @@ std::vector<std::string_view> candidates_for(const Word& word, const analysis::P
     std::vector<std::string_view> names;
     for (const analysis::Definition& definition : program.definitions()) {
         const bool signal = definition.kind == Kind::input || definition.kind == Kind::output;
-        if (word.is_step ? definition.kind == Kind::step : signal) names.push_back(definition.name);
+        const bool point = definition.kind == Kind::set_point && word.has_value;
+        if (word.is_step ? definition.kind == Kind::step : signal || point) names.push_back(definition.name);
     }
     if (!word.is_step) {
         for (const std::string_view sentence : sentence_words()) names.push_back(sentence);
@@ -110,7 +111,7 @@ Json scenario_fixes(const Workspace& workspace, const At& at, const Json& params
     for (const Word& word : words_of(at.document.text())) {
         const std::uint32_t line = lines.line_of(word.span.offset);
         const bool faulty = std::find(wrong.begin(), wrong.end(), line) != wrong.end();
-        if (line < first || line > last || !faulty) continue;
+        if (line < first || line > last || !faulty || word.is_of_order) continue;
         const std::vector<std::string_view> names = candidates_for(word, *at.view.program);
         const std::string_view meant = is_known(word, names) ? "" : nearest(word.text, names);
         if (meant.empty()) continue;

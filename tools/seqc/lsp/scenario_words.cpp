@@ -39,6 +39,8 @@ constexpr auto kSentences = std::to_array<Sentence>({
     {"pulse", "`pulse IN0 50 ms`: on, and off again after that time"},
     {"toggle", "`toggle IN0`"},
     {"cancel", "`cancel IN0`: drops what rules have planned for it"},
+    {"set", "`set Length := 80 mm and Dwell := 800 ms`: an operator changes set-points"},
+    {"recipe", "`recipe save \"Short\"`, `recipe load \"Short\"`"},
     {"follows", "`IN2 follows CONDITION [after TIME] [back after TIME]`: the plant's answer"},
     {"appears", "`IN1 appears [for TIME] every TIME`"},
     {"disappears", "`IN1 disappears [TIME] after EVENT`"},
@@ -81,13 +83,55 @@ const Sentence* sentence_word(std::string_view word) {
     return found == kSentences.end() ? nullptr : found;
 }
 
-const analysis::Definition* definition_of(const analysis::Program& program, const Word& word) {
-    if (word.is_step) {
-        const auto* step = program.find(Kind::step, word.text);
-        return step != nullptr ? step : program.find(Kind::group, word.text);
+bool may_be(const Word& word, Kind kind) {
+    switch (kind) {
+        case Kind::step:
+        case Kind::group:
+            return word.is_step;
+        case Kind::input:
+        case Kind::output:
+            return !word.is_step && !word.is_of_order;
+        case Kind::set_point:
+            return word.is_of_order || (word.has_value && !word.is_step);
+        case Kind::motor_variable:
+            return word.is_of_order;
+        default:
+            return false;
     }
-    if (const auto* input = program.find(Kind::input, word.text)) return input;
-    return program.find(Kind::output, word.text);
+}
+
+const analysis::Definition* definition_of(const analysis::Program& program, const Word& word) {
+    for (const Kind kind :
+         {Kind::step, Kind::group, Kind::input, Kind::output, Kind::set_point, Kind::motor_variable}) {
+        if (!may_be(word, kind)) continue;
+        if (const auto* definition = program.find(kind, word.text)) return definition;
+    }
+    return nullptr;
+}
+
+/// `:=`, a comparison or `changes` follows.
+bool has_value_at(std::string_view text, std::size_t at) {
+    while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+    const std::string_view rest = text.substr(at);
+    constexpr std::string_view kChanges = "changes";
+    return rest.starts_with(":=") || rest.starts_with('=') || rest.starts_with('<') ||
+           rest.starts_with('>') || same_name(rest.substr(0, kChanges.size()), kChanges);
+}
+
+void add_words_of_order(std::string_view text, std::size_t begin, std::size_t end, std::vector<Word>& words) {
+    for (std::size_t at = begin; at < end;) {
+        std::size_t after = at;
+        while (after < end && continues_word(text[after])) ++after;
+        if (after == at) {
+            ++at;
+            continue;
+        }
+        Word word{{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(after - at)},
+                  text.substr(at, after - at)};
+        word.is_of_order = true;
+        if (begins_word(text[at])) words.push_back(word);
+        at = after;
+    }
 }
 
 std::optional<Word> word_at(const At& at) {
@@ -97,12 +141,28 @@ std::optional<Word> word_at(const At& at) {
     return std::nullopt;
 }
 
+/// The line before a place in capital letters, without blanks at its end.
+std::string line_before(const At& at, std::uint32_t offset) {
+    const std::uint32_t start = at.document.lines().start_of(at.document.lines().line_of(offset));
+    std::string before = upper(std::string_view(at.document.text()).substr(start, offset - start));
+    while (!before.empty() && before.back() == ' ') before.pop_back();
+    return before;
+}
+
 }  // namespace
 
 std::vector<std::string_view> sentence_words() {
     std::vector<std::string_view> words;
     for (const Sentence& sentence : kSentences) words.push_back(sentence.word);
     return words;
+}
+
+bool is_value_of_scenarios(std::string_view name) {
+    constexpr auto kValues = std::to_array<std::string_view>({"step", "TIMER", "COUNTER", "INPOS", "IN_POS",
+                                                              "ERROR", "LINK", "RUNNING", "INPUTS", "OUTPUTS",
+                                                              "P_IST", "V_IST", "SHAFT", "TORQUE"});
+    return std::any_of(kValues.begin(), kValues.end(),
+                       [name](std::string_view value) { return same_name(value, name); });
 }
 
 const analysis::Definition* scenario_name_at(const At& at) {
@@ -122,14 +182,20 @@ std::vector<Word> words_of(std::string_view text) {
         } else if (text.substr(at, 2) == "(*") {
             at = std::min(text.find("*)", at), text.size() - 2) + 2;
         } else if (c == '"' || c == '\'') {
-            at = std::min(text.find_first_of(c == '"' ? "\"\n" : "'\n", at + 1), text.size() - 1) + 1;
+            const std::size_t end =
+                std::min(text.find_first_of(c == '"' ? "\"\n" : "'\n", at + 1), text.size() - 1);
+            if (same_name(before, "ordered")) add_words_of_order(text, at + 1, end, words);
+            before = {};
+            at = end + 1;
         } else if (begins_word(c)) {
             std::size_t end = at;
             while (end < text.size() && continues_word(text[end])) ++end;
             const std::string_view word = text.substr(at, end - at);
+            const bool is_stored = same_name(before, "motor");  // motor INPOSWIN := 20
             words.push_back({{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(end - at)},
                              word,
-                             in_group || (compares && same_name(before, "step"))});
+                             in_group || (compares && same_name(before, "step")),
+                             !is_stored && has_value_at(text, end)});
             in_group = same_name(word, "in") && same_name(before, "step");
             before = word;
             compares = false;
@@ -166,9 +232,10 @@ Json scenario_references(Workspace& workspace, const At& at) {
 Json scenario_highlights(Workspace& workspace, const At& at) {
     Json found = Json::array();
     const auto here = word_at(at);
-    if (scenario_name_at(at) == nullptr) return found;
+    const analysis::Definition* definition = scenario_name_at(at);
+    if (definition == nullptr) return found;
     for (const Word& word : words_of(at.document.text())) {
-        if (same_name(word.text, here->text) && word.is_step == here->is_step)
+        if (same_name(word.text, here->text) && definition_of(*at.view.program, word) == definition)
             found.push_back(
                 {{"range", workspace.range_json(at.document.lines(), word.span)}, {"kind", kTextHighlight}});
     }
@@ -199,23 +266,18 @@ Json scenario_hover(Workspace& workspace, const At& at) {
 Json scenario_completion(Workspace& workspace, const At& at) {
     Span replaced{at.offset, 0};
     bool after_step = false;
-    const std::vector<Word> words = words_of(at.document.text());
-    for (const Word& word : words) {
-        if (analysis::holds(word.span, at.offset)) {
-            replaced = word.span;
-            after_step = word.is_step;
-        }
+    for (const Word& word : words_of(at.document.text())) {
+        if (!analysis::holds(word.span, at.offset)) continue;
+        replaced = word.span;
+        after_step = word.is_step;
     }
+    std::string before = line_before(at, replaced.offset);
+    const bool sets = before == "SET" || before.ends_with(" SET") || before.ends_with(",SET");
     if (replaced.length == 0) {
-        const std::uint32_t line = at.document.lines().line_of(at.offset);
-        const std::uint32_t start = at.document.lines().start_of(line);
-        std::string before(std::string_view(at.document.text()).substr(start, at.offset - start));
-        while (!before.empty() && before.back() == ' ') before.pop_back();
         const bool compares = before.ends_with('=') || before.ends_with("<>");
         while (!before.empty() && std::string_view("=<> ").find(before.back()) != std::string_view::npos)
             before.pop_back();
-        const bool in_group = upper(before).ends_with("STEP IN");
-        after_step = in_group || (compares && upper(before).ends_with("STEP"));
+        after_step = before.ends_with("STEP IN") || (compares && before.ends_with("STEP"));
     }
     const Json range = workspace.range_json(at.document.lines(), replaced);
     Json items = Json::array();
@@ -229,12 +291,17 @@ Json scenario_completion(Workspace& workspace, const At& at) {
         for (const analysis::Definition& definition : at.view.program->definitions()) {
             const bool signal = definition.kind == Kind::input || definition.kind == Kind::output;
             const bool steps = definition.kind == Kind::step || definition.kind == Kind::group;
-            if (after_step ? steps : signal) add(definition.name, steps ? 3 : 6, definition.address);
+            if (!sets && (after_step ? steps : signal))
+                add(definition.name, steps ? 3 : 6, definition.address);
+        }
+        for (const analysis::Definition& definition : at.view.program->definitions()) {
+            if (definition.kind == Kind::set_point && !after_step)
+                add(definition.name, 6, at.view.program->text(definition.whole));
         }
         if (after_step) add("POWER_UP", 3, "step 0");
     }
     for (const Sentence& sentence : kSentences) {
-        if (!after_step) add(sentence.word, 14, sentence.does);
+        if (!after_step && !sets) add(sentence.word, 14, sentence.does);
     }
     return {{"isIncomplete", false}, {"items", items}};
 }
@@ -246,10 +313,11 @@ std::vector<analysis::Coloured> scenario_colours(const At& at) {
         const analysis::Definition* definition =
             at.view.program ? definition_of(*at.view.program, word) : nullptr;
         if (definition != nullptr) {
-            const TokenType type = definition->kind == Kind::step    ? TokenType::step
-                                   : definition->kind == Kind::group ? TokenType::group
-                                   : definition->kind == Kind::input ? TokenType::input
-                                                                     : TokenType::output;
+            const TokenType type = definition->kind == Kind::step     ? TokenType::step
+                                   : definition->kind == Kind::group  ? TokenType::group
+                                   : definition->kind == Kind::input  ? TokenType::input
+                                   : definition->kind == Kind::output ? TokenType::output
+                                                                      : TokenType::register_name;
             colours.push_back({word.span, type});
         } else if (sentence_word(word.text) != nullptr) {
             colours.push_back({word.span, TokenType::keyword});
@@ -260,12 +328,10 @@ std::vector<analysis::Coloured> scenario_colours(const At& at) {
 
 void add_scenario_locations(Workspace& workspace, const std::string& program_uri, std::string_view name,
                             Kind kind, Json& found) {
-    const bool is_step = kind == Kind::step || kind == Kind::group;
-    if (kind != Kind::input && kind != Kind::output && !is_step) return;
     for (const auto& [uri, text] : workspace.dependants_of(program_uri)) {
         const analysis::Lines lines(text);
         for (const Word& word : words_of(text)) {
-            if (same_name(word.text, name) && word.is_step == is_step)
+            if (same_name(word.text, name) && may_be(word, kind))
                 found.push_back({{"uri", uri}, {"range", workspace.range_json(lines, word.span)}});
         }
     }

@@ -14,13 +14,17 @@ namespace nplc::seqc::lsp {
 struct Word {
     Span span;
     std::string_view text;
-    bool is_step = false;  ///< after `step =`
+    bool is_step = false;      ///< after `step =`
+    bool has_value = false;    ///< before `:=` or a comparison: may be a set-point
+    bool is_of_order = false;  ///< in the quotes behind `ordered`
 };
-/// Without comments and texts in quotes.
+/// Without comments and other texts in quotes.
 std::vector<Word> words_of(std::string_view text);
 
 /// Words of statements: at, expect, rises.
 std::vector<std::string_view> sentence_words();
+/// P_IST, TORQUE: a set-point of that name could not be compared.
+bool is_value_of_scenarios(std::string_view name);
 /// The program's definition of the name at a place of a scenario; null if it is none.
 const analysis::Definition* scenario_name_at(const At& at);
 

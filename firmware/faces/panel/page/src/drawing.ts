@@ -1,4 +1,5 @@
 // The sequence as a drawing: the active step lit, the last path, breakpoints; zoom, drag, search, follow.
+import { numbersInWords, waysBetween } from "./boxes";
 import { setAttribute, setClass, setText, svg } from "./dom";
 import { kBoxHeight, kBoxWidth, layOut, pathOf, type Drawing } from "./layout";
 import type { Axis } from "./state";
@@ -16,7 +17,7 @@ const kLeastWidth = 220;
 const kReadable = 0.5; // px of the screen for one of the drawing
 
 export class StepDrawing {
-  selected: number | null = null; // null: the active step
+  selected: number | null = null; // a box; null: the active step
   private pointed: number | null = null; // by mouse or keyboard
   get shown(): number | null { return this.pointed ?? this.selected; }
   follows = true;
@@ -26,7 +27,7 @@ export class StepDrawing {
   private lines = new Map<string, SVGPathElement>();
   private view: View = { x: 0, y: 0, width: 400, height: 300 };
   private target: View | null = null;
-  private lastStep = -1;
+  private lastBox = -1;
   private axis: Axis | null = null;
   private showsErrors = false;
   private shows: "readable" | "all" | "chosen" = "readable"; // chosen: somebody has moved or zoomed
@@ -47,19 +48,22 @@ export class StepDrawing {
     this.axis = axis;
     this.boxes.clear();
     this.lines.clear();
-    this.lastStep = -1;
+    this.lastBox = -1;
+    this.pointed = null;
     this.root.replaceChildren();
-    const steps = [...(axis.program?.steps.values() ?? [])];
     if (!axis.program || !axis.program.terms.length) {
       this.drawing = null;
       return;
     }
-    const pairs = steps.flatMap((step) => step.ways.filter((way) => !this.isAside(way)).map((way): [number, number] => [way.from, way.to]));
-    this.drawing = layOut(steps.map((step) => step.number), pairs);
+    const { steps, boxes } = axis.program;
+    if (this.selected !== null) this.selected = steps.has(this.selected) ? boxes.of(this.selected) : null;
+    const ways = waysBetween(steps.values(), boxes);
+    const pairs = ways.filter((way) => !this.isAside(way)).map((way): [number, number] => [way.from, way.to]);
+    this.drawing = layOut([...boxes.steps.keys()], pairs);
     this.root.append(this.marker("arrow"), this.marker("arrow-path"), this.marker("arrow-error"));
     for (const line of this.drawing.lines) this.addLine(line.from, line.to, pathOf(line.points), false);
-    for (const step of steps) for (const way of step.ways) if (this.isAside(way)) this.addAside(way);
-    for (const step of steps) this.addBox(step.number);
+    for (const way of ways) if (this.isAside(way)) this.addAside(way);
+    for (const box of boxes.steps.keys()) this.addBox(box, ways.some((way) => way.from === box && way.to === box));
     this.begin();
   }
 
@@ -89,11 +93,10 @@ export class StepDrawing {
     this.addLine(way.from, way.to, `M${a.x} ${a.y}C${a.x + bend} ${a.y} ${b.x - bend} ${b.y} ${b.x} ${b.y}`, true);
   }
 
-  private addBox(step: number): void {
+  private addBox(step: number, self: boolean): void {
     const axis = this.axis!;
     const at = this.drawing!.boxes.get(step)!;
     const name = axis.stepName(step);
-    const self = axis.program!.steps.get(step)!.ways.some((way) => way.to === step);
     const box = svg("g", { class: "box", transform: `translate(${at.x} ${at.y})`, tabindex: step === 0 ? 0 : -1, role: "button", "data-step": step },
       svg("rect", { width: kBoxWidth, height: kBoxHeight, rx: 8 }),
       svg("circle", { cx: 0, cy: kBoxHeight / 2, r: 6, class: "break" }),
@@ -128,14 +131,18 @@ export class StepDrawing {
     this.onSelect(this.selected);
   }
 
-  private note(step: number, self: boolean): string {
-    const outputs = this.outputsOf(step);
-    return `${step}${self ? " ↻" : ""}${outputs ? ` · ${outputs}` : ""}`.slice(0, 26);
+  private note(box: number, self: boolean): string {
+    const outputs = this.outputsOf(box);
+    return `${numbersInWords(this.axis!.stepsOf(box))}${self ? " ↻" : ""}${outputs ? ` · ${outputs}` : ""}`.slice(0, 26);
   }
 
-  private outputsOf(step: number): string {
-    const bits = this.axis!.program!.symbols.steps?.find((s) => s.number === step)?.outputs ?? 0;
-    return this.axis!.outputNames(bits).join(" ");
+  /** Those that are on in some of its copies only, as a lamp that blinks, in brackets. */
+  private outputsOf(box: number): string {
+    const axis = this.axis!;
+    const masks = axis.stepsOf(box).map((step) => axis.program!.symbols.steps?.find((s) => s.number === step)?.outputs ?? 0);
+    const always = masks.reduce((all, mask) => all & mask, 0xf);
+    const some = masks.reduce((all, mask) => all | mask, 0) & ~always;
+    return [...axis.outputNames(always), ...axis.outputNames(some).map((name) => `(${name})`)].join(" ");
   }
 
   private roving(step: number): void {
@@ -179,18 +186,19 @@ export class StepDrawing {
   /** What has changed in the machine. */
   update(axis: Axis): void {
     if (!this.drawing) return;
-    const active = axis.hasTable ? axis.step : -1;
+    const active = axis.hasTable ? axis.box : -1;
     const looked = this.selected ?? active;
-    const recent = axis.path.slice(-kPathShown - 1);
+    const recent = axis.boxPath.slice(-kPathShown - 1);
     const ways = new Map<string, number>();
-    for (let i = 1; i < recent.length; ++i) ways.set(`${recent[i - 1].step}>${recent[i].step}`, i);
+    for (let i = 1; i < recent.length; ++i) ways.set(`${recent[i - 1]}>${recent[i]}`, i);
     for (const [step, box] of this.boxes) {
       setClass(box, "active", step === active);
       setClass(box, "alarm", step === active && axis.error);
       setClass(box, "paused", step === active && !axis.isRunning);
       setClass(box, "selected", step === this.selected);
       setClass(box, "breaks", axis.breaksAt(step));
-      const label = `${axis.stepName(step)} ${box.querySelector(".number")!.textContent}${step === active ? ", active" : ""}${axis.breaksAt(step) ? ", breakpoint" : ""}`;
+      const copies = axis.stepsOf(step).length - 1;
+      const label = `${axis.stepName(step)} ${box.querySelector(".number")!.textContent}${copies ? `, with ${copies} ${copies === 1 ? "copy" : "copies"}` : ""}${step === active ? ", active" : ""}${axis.breaksAt(step) ? ", breakpoint" : ""}`;
       setAttribute(box, "aria-label", label);
     }
     for (const [key, line] of this.lines) {
@@ -199,19 +207,20 @@ export class StepDrawing {
       setClass(line, "latest", order === recent.length - 1);
       setClass(line, "shown", this.showsErrors || key.startsWith(`${looked}>`));
     }
-    if (active !== this.lastStep) {
-      this.lastStep = active;
+    if (active !== this.lastBox) {
+      this.lastBox = active;
       if (this.follows && this.selected === null && active >= 0) this.reveal(active);
     }
   }
 
-  /** Steps whose name or number matches; the first one is shown. */
+  /** Boxes with a step whose name or number matches; the first one is shown. */
   search(text: string): number {
     const wanted = text.trim().toLowerCase();
     let first: number | null = null;
     let count = 0;
     for (const [step, box] of this.boxes) {
-      const hit = wanted !== "" && (this.axis!.stepName(step).toLowerCase().includes(wanted) || String(step) === wanted);
+      const matches = (one: number): boolean => this.axis!.stepName(one).toLowerCase().includes(wanted) || String(one) === wanted;
+      const hit = wanted !== "" && this.axis!.stepsOf(step).some(matches);
       setClass(box, "found", hit);
       if (!hit) continue;
       ++count;
@@ -253,7 +262,7 @@ export class StepDrawing {
     this.shows = "readable";
     const scale = this.root.clientWidth / this.view.width;
     if (scale < kReadable) this.magnify(scale / 0.75);
-    if (this.lastStep >= 0) this.reveal(this.lastStep);
+    if (this.lastBox >= 0) this.reveal(this.lastBox);
   }
 
   /** Shows it and selects it, as large as can be read. */
@@ -267,7 +276,7 @@ export class StepDrawing {
     if (this.shows === "all") return this.fit();
     if (this.shows === "readable") return this.begin();
     this.apply({ ...this.view, height: this.view.width * this.aspect() });
-    if (this.lastStep >= 0 && this.follows) this.reveal(this.lastStep);
+    if (this.lastBox >= 0 && this.follows) this.reveal(this.lastBox);
   }
 
   zoom(factor: number, at?: { x: number; y: number }): void {
@@ -366,6 +375,6 @@ export class StepDrawing {
 
   /** What the drawing says in words, for those who do not see it. */
   tell(element: Element, axis: Axis): void {
-    setText(element, axis.hasTable ? `Active step: ${axis.stepName(axis.step)}` : "There is no table.");
+    setText(element, axis.hasTable ? `Active step: ${axis.boxName(axis.step)}` : "There is no table.");
   }
 }

@@ -158,7 +158,7 @@ function paint(): void {
   setPoints.update(axis);
   operation.update(axis);
   byId("show-active").hidden = drawing.selected === null;
-  const looked = drawing.selected ?? axis.step;
+  const looked = drawing.selected ?? axis.box;
   setText(byId("break"), axis.breaksAt(looked) ? "Clear breakpoint" : "Breakpoint");
   paintEvents(axis);
   paintWhy(axis);
@@ -196,7 +196,7 @@ function paintEvents(axis: Axis): void {
   shownEvents = last;
   const rows = [...axis.events].reverse().slice(0, 100).map((event) =>
     h("li", { class: (event.code > 2 && event.code < 16) || event.code === kDropped ? "event bad" : "event" },
-      h("time", { title: simulated ? null : wallTime(axis.r.UPTIME ?? 0, event.ms).toLocaleString() }, clock(event.ms)), h("span", { class: "event-text" }, event.text), h("span", { class: "event-step" }, axis.stepName(event.step))));
+      h("time", { title: simulated ? null : wallTime(axis.r.UPTIME ?? 0, event.ms).toLocaleString() }, clock(event.ms)), h("span", { class: "event-text" }, event.text), h("span", { class: "event-step" }, axis.boxName(event.step))));
   byId("events").replaceChildren(...(rows.length ? rows : [h("li", { class: "quiet" }, "Nothing has happened yet.")]));
 }
 
@@ -219,8 +219,8 @@ byId("axis").addEventListener("change", (e) => {
 byId("show-active").addEventListener("click", () => drawing.select(null));
 byId("break").addEventListener("click", () => {
   if (!current || !operation.operates) return;
-  const step = drawing.selected ?? current.step;
-  void operation.setBreak(step, !current.breaksAt(step));
+  const box = drawing.selected ?? current.box;
+  void operation.setBreak(current.stepsOf(box), !current.breaksAt(box));
 });
 byId("zoom-in").addEventListener("click", () => drawing.zoom(0.8));
 byId("zoom-out").addEventListener("click", () => drawing.zoom(1.25));

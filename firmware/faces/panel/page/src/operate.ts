@@ -212,13 +212,17 @@ export class Operation {
     if (answer.result === "done") this.notice("The motor's errors were cleared; one whose cause is still there comes back.");
   }
 
-  async setBreak(step: number, on: boolean): Promise<void> {
-    const low = step < 32;
-    const now = (low ? this.axis!.r.BREAK_LOW : this.axis!.r.BREAK_HIGH) ?? 0;
-    const bit = 2 ** (step & 31);
-    const has = Math.floor(now / bit) % 2 === 1;
-    if (has === on) return;
-    await this.ask({ do: "write", register: low ? "BREAK_LOW" : "BREAK_HIGH", value: on ? now + bit : now - bit }, "breakpoint");
+  /** In all of these steps, or in none of them. */
+  async setBreak(steps: number[], on: boolean): Promise<void> {
+    const axis = this.axis!;
+    for (const [register, first] of [["BREAK_LOW", 0], ["BREAK_HIGH", 32]] as const) {
+      const bits = steps.filter((step) => step >= first && step < first + 32).reduce((mask, step) => mask | (1 << (step - first)), 0);
+      const now = axis.r[register] ?? 0;
+      const value = (on ? now | bits : now & ~bits) >>> 0;
+      if (value === now) continue;
+      const answer = await this.ask({ do: "write", axis: axis.info.name, register, value }, "breakpoint");
+      if (answer.result !== "done") return;
+    }
   }
 
   async force(isInput: boolean, bit: number, level: 0 | 1 | null): Promise<void> {

@@ -118,7 +118,7 @@ export class SetPoints {
     const parts: string[] = [];
     const active = kept.recipes.find((one) => one.number === kept.recipe);
     if (active) parts.push(`recipe ${active.name}${kept.differs ? ", changed since it was loaded" : ""}`);
-    if (kept.waits) parts.push(`a change waits: it is taken in ${kept.takes.map((step) => axis.stepName(step)).join(", ")} or when the sequence stops`);
+    if (kept.waits) parts.push(`a change waits: it is taken in ${axis.boxNames(kept.takes)} or when the sequence stops`);
     if (kept.damaged) parts.push("the stored values are damaged, older ones or the defaults stand in: change some, or load a recipe");
     return parts.join("; ");
   }

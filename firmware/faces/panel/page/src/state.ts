@@ -1,4 +1,5 @@
 // What the page knows of each axis.
+import { Boxes, type NamedStep } from "./boxes";
 import { decodeTable, keyOf, stepsOf, type Step, type Term } from "./table";
 import type { Cause } from "./why";
 import { kReasons, kRunStates, hex } from "./words";
@@ -8,7 +9,7 @@ export interface Symbols {
   source?: string;
   motor?: string;
   scale?: { revolutions: number; length: number; unit: string };
-  steps?: { number: number; name: string; line: number; outputs: number; made_for?: string }[];
+  steps?: (NamedStep & { line: number; outputs: number })[];
   inputs?: string[];
   outputs?: string[];
   registers?: { name: string; register: string; number: number }[];
@@ -30,7 +31,8 @@ export function symbolsOf(given: unknown): Symbols {
   return {
     ...(from as Symbols), program: text("program"), source: text("source"), motor: text("motor"), inputs: texts("inputs"), outputs: texts("outputs"),
     scale: isScale ? { unit: scale!.unit as string, revolutions: Number(scale!.revolutions), length: Number(scale!.length) } : undefined,
-    steps: named("steps").map((one) => ({ ...one, outputs: Number(one.outputs) || 0, made_for: typeof one.made_for === "string" ? one.made_for : undefined })) as Symbols["steps"],
+    steps: named("steps").map((one) => ({ ...one, outputs: Number(one.outputs) || 0, made_for: typeof one.made_for === "string" ? one.made_for : undefined,
+      copy_of: typeof one.copy_of === "number" ? one.copy_of : undefined })) as Symbols["steps"],
     registers: named("registers").filter((one) => typeof one.register === "string") as Symbols["registers"],
   };
 }
@@ -54,6 +56,7 @@ export interface Program {
   registers: Record<string, RegisterInfo>;
   terms: Term[];
   steps: Map<number, Step>;
+  boxes: Boxes;
 }
 
 export interface LogEvent {
@@ -124,7 +127,7 @@ export class Axis {
   setPoints: SetPointsNews = { crc: 0, values: [], waits: false, damaged: false, recipe: 0, differs: false, takes: [], room: 0, recipes: [] };
   why: Cause[] | null = null; // null: not known yet
   seat: Seat = { holder: "", mine: false };
-  path: { step: number; at: number }[] = []; // newest last
+  path: { step: number; at: number }[] = []; // newest last; of copies in a row the last one
   imageAt = 0; // performance.now() at which the image was true
   visits = 0;
 
@@ -151,19 +154,31 @@ export class Axis {
   get hasTable(): boolean { return this.status(11); }
   get forcedInputs(): number { return ((this.r.FORCE_IN ?? 0) >> 8) & 0x3f; }
   get forcedOutputs(): number { return ((this.r.FORCE_OUT ?? 0) >> 8) & 0xf; }
-  breaksAt(step: number): boolean {
-    const word = step < 32 ? this.r.BREAK_LOW : this.r.BREAK_HIGH;
-    return (((word ?? 0) >>> (step & 31)) & 1) === 1;
+  /** In any step of the box: while it is drawn as one, they are set together. */
+  breaksAt(box: number): boolean {
+    const isSet = (step: number): boolean => ((((step < 32 ? this.r.BREAK_LOW : this.r.BREAK_HIGH) ?? 0) >>> (step & 31)) & 1) === 1;
+    return this.stepsOf(box).some(isSet);
+  }
+
+  /** A step and its copies are one box: its number is that of the step as it was written. */
+  boxOf(step: number): number { return this.program?.boxes.of(step) ?? step; }
+  stepsOf(box: number): number[] { return this.program?.boxes.stepsOf(box) ?? [box]; }
+  get box(): number { return this.boxOf(this.step); }
+  /** Boxes that were active, newest last. */
+  get boxPath(): number[] {
+    return this.path.map((one) => this.boxOf(one.step)).filter((box, i, all) => i === 0 || box !== all[i - 1]);
   }
 
   takeProgram(m: Record<string, unknown>): void {
     const bytes = Uint8Array.from(atob(m.table as string), (c) => c.charCodeAt(0));
     const terms = decodeTable(bytes);
+    const steps = stepsOf(terms);
+    const symbols = symbolsOf(m.symbols);
     if (this.program && this.program.crc !== m.crc) this.path = []; // its steps are others
     this.program = {
       file: (m.file as string) ?? "", crc: m.crc as number, bytes, proof: (m.proof as string) ?? "",
-      since: (m.since as number) ?? -1, symbols: symbolsOf(m.symbols), hasSymbols: m.symbols !== null,
-      registers: (m.registers as Record<string, RegisterInfo>) ?? {}, terms, steps: stepsOf(terms),
+      since: (m.since as number) ?? -1, symbols, hasSymbols: m.symbols !== null,
+      registers: (m.registers as Record<string, RegisterInfo>) ?? {}, terms, steps, boxes: new Boxes(steps.keys(), symbols.steps),
     };
   }
 
@@ -180,6 +195,8 @@ export class Axis {
   }
 
   private visit(step: number, at: number): void {
+    const last = this.path[this.path.length - 1];
+    if (last && last.step !== step && this.boxOf(last.step) === this.boxOf(step)) this.path.pop(); // a lamp that blinks for an hour is no path
     this.path.push({ step, at });
     ++this.visits;
     if (this.path.length > 40) this.path.shift();
@@ -193,6 +210,9 @@ export class Axis {
   stepName(step: number): string {
     return this.program?.symbols.steps?.find((s) => s.number === step)?.name ?? `Step ${step}`;
   }
+  /** As it was written: of a copy the name of its original. */
+  boxName(step: number): string { return this.stepName(this.boxOf(step)); }
+  boxNames(steps: number[]): string { return [...new Set(steps.map((step) => this.boxName(step)))].join(", "); }
   madeFor(step: number): string {
     return this.program?.symbols.steps?.find((s) => s.number === step)?.made_for ?? "";
   }

@@ -1,4 +1,5 @@
 // Another table into the gateway: compared with what runs, and asked about before anything is sent.
+import { Boxes } from "./boxes";
 import { termInWords } from "./describe";
 import { byId, h, saveFile, setClass, setText } from "./dom";
 import type { Operation } from "./operate";
@@ -128,9 +129,11 @@ export class Upload {
     const now = this.axis!;
     const next = new Axis(now.info);
     const terms = decodeTable(this.chosen.bytes);
+    const steps = stepsOf(terms);
+    const symbols = symbolsOf(this.chosen.symbols);
     next.program = {
       file: this.chosen.name, crc: crc32(this.chosen.bytes), bytes: this.chosen.bytes, proof: "", since: -1,
-      symbols: symbolsOf(this.chosen.symbols), hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps: stepsOf(terms),
+      symbols, hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps, boxes: new Boxes(steps.keys(), symbols.steps),
     };
     const differences = now.program?.crc === next.program.crc ? [] : compare(now, next);
     const { program, motor } = next.program.symbols;

@@ -1,4 +1,5 @@
 // What the active or the selected step waits for: every way out, each condition true or false now.
+import { numbersInWords, waysOut } from "./boxes";
 import { actionsOf, conditionInWords } from "./describe";
 import { h, setClass, setText } from "./dom";
 import type { Axis } from "./state";
@@ -12,22 +13,37 @@ interface Live {
 
 export class Waits {
   private shown = "";
+  private box = -1;
   private live: Live[] = [];
   private cards: { element: HTMLElement; badge: HTMLElement; terms: Term[] }[] = [];
 
   constructor(private readonly root: HTMLElement, private readonly title: HTMLElement) {}
 
+  /** `selected`: a box; of the active one its active copy is told. */
   update(axis: Axis, selected: number | null): void {
-    const number = selected ?? axis.step;
-    const isActive = number === axis.step;
+    const isActive = selected === null || selected === axis.box;
+    const number = isActive ? axis.step : selected;
     const shown = `${axis.info.name} ${axis.program?.crc} ${axis.program?.hasSymbols} ${axis.hasTable} ${number}`;
     if (shown !== this.shown) {
       this.shown = shown;
-      this.build(axis, number);
+      this.rebuild(axis, number);
     }
-    setText(this.title, !axis.hasTable ? "No table" : isActive ? `Active step: ${axis.stepName(number)}` : `Step ${axis.stepName(number)} (not active)`);
+    setText(this.title, !axis.hasTable ? "No table" : isActive ? `Active step: ${axis.boxName(number)}` : `Step ${axis.boxName(number)} (not active)`);
     setClass(this.root, "idle", !isActive);
     this.judge(axis);
+  }
+
+  /** From copy to copy of a step that blinks, what a person opened stays open and the keyboard where it is. */
+  private rebuild(axis: Axis, number: number): void {
+    const staysInBox = axis.boxOf(number) === this.box;
+    const wasOpen = this.root.querySelector("details")?.open ?? false;
+    const focused = this.live.findIndex(({ row }) => row === document.activeElement);
+    this.box = axis.boxOf(number);
+    this.build(axis, number);
+    if (!staysInBox) return;
+    const acts = this.root.querySelector("details");
+    if (acts) acts.open = wasOpen;
+    if (focused >= 0) this.live[Math.min(focused, this.live.length - 1)]?.row.focus({ preventScroll: true });
   }
 
   private build(axis: Axis, number: number): void {
@@ -38,18 +54,31 @@ export class Waits {
       this.root.replaceChildren(h("p", { class: "quiet" }, "Upload a table, or let the configuration name one."));
       return;
     }
-    const made = axis.madeFor(number);
+    const made = this.madeFor(axis, number);
     this.root.replaceChildren(
-      ...(made ? [h("p", { class: "quiet" }, `The compiler made this step: ${made}`)] : []),
-      ...step.ways.map((way) => this.card(axis, way)),
+      ...(made ? [h("p", { class: "quiet" }, made)] : []),
+      ...waysOut(step, axis.program!.boxes).map((way) => this.card(axis, way)),
       ...(step.ways.length ? [] : [h("p", { class: "quiet" }, "No way leads out of this step.")]),
       ...(step.acts.length ? [this.acts(axis, step.acts)] : []));
+  }
+
+  private madeFor(axis: Axis, number: number): string {
+    const made = axis.madeFor(number);
+    if (axis.boxOf(number) !== number) return `Now in step ${number}, which the compiler made: ${made}`;
+    const copies = axis.stepsOf(number).slice(1);
+    if (copies.length) return `The compiler made ${copies.length === 1 ? "a copy" : `${copies.length} copies`} of this step for what it remembers: ${numbersInWords(copies)}.`;
+    return made && `The compiler made this step: ${made}`;
+  }
+
+  private wayInWords(axis: Axis, way: Way): string {
+    if (way.to === way.from) return "begins anew";
+    return axis.program!.boxes.isWithin(way) ? `stays, as ${axis.stepName(way.to)}` : axis.stepName(way.to);
   }
 
   private card(axis: Axis, way: Way): HTMLElement {
     const badge = h("span", { class: "badge" });
     const element = h("section", { class: `card${way.isError ? " error-way" : ""}` },
-      h("h3", {}, `→ ${way.to === way.from ? "begins anew" : axis.stepName(way.to)}`, badge),
+      h("h3", {}, `→ ${this.wayInWords(axis, way)}`, badge),
       ...way.terms.map((term) => this.term(axis, term)));
     this.cards.push({ element, badge, terms: way.terms });
     return element;
@@ -115,7 +144,10 @@ export class Waits {
   summary(axis: Axis): string {
     const step = axis.program?.steps.get(axis.step);
     if (!step) return "";
-    const ways = step.ways.filter((way) => !way.isError || step.ways.length === 1);
+    const all = waysOut(step, axis.program!.boxes);
+    const isWithin = (way: Way): boolean => axis.program!.boxes.isWithin(way);
+    // What leads out of the box; a copy that nothing leaves waits for what leads to another copy.
+    const ways = [all.filter((way) => !way.isError && !isWithin(way)), all.filter(isWithin), all].find((list) => list.length) ?? [];
     return ways.map((way) => `for ${axis.stepName(way.to)}: ${this.missing(axis, way.terms, axis.key) || "nothing, it is true now"}`).join("; ");
   }
 }

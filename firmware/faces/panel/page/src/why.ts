@@ -36,10 +36,10 @@ export function whyNot(axis: Axis, waits: Waits, operates: boolean): Finding[] {
   if (!axis.hasTable) add("There is no table.", "STATUS bit 11 = 0", "Upload one.");
   if ((axis.r.LINK ?? 0) === 2) add("The link was lost and is back, but the sequence has not acknowledged it.", "LINK = 2", "The sequence must send “reset error” (01h).");
   else if (axis.error) add("The sequence reads ERROR.", "STATUS bit 4 = 1", "Look at the event log for the cause.");
-  if (axis.status(10)) add(`It is a breakpoint that holds it, in ${axis.stepName(axis.step)}.`, "STATUS bit 10 = 1", "Clear the breakpoint and run on.");
+  if (axis.status(10)) add(`It is a breakpoint that holds it, in ${axis.boxName(axis.step)}.`, "STATUS bit 10 = 1", "Clear the breakpoint and run on.");
   if (axis.status(18)) add("It cannot go on from where it is held.", "STATUS bit 18 = 1", "Stop, then run from the start.");
-  if (axis.setPoints.waits) add("Changed set-points wait.", "SET_POINT_STATE bit 0 = 1", `They are taken in ${axis.setPoints.takes.map((step) => axis.stepName(step)).join(", ")} or when the sequence stops.`);
+  if (axis.setPoints.waits) add("Changed set-points wait.", "SET_POINT_STATE bit 0 = 1", `They are taken in ${axis.boxNames(axis.setPoints.takes)} or when the sequence stops.`);
   if (axis.forcedInputs || axis.forcedOutputs) add("Signals are forced.", "FORCE_IN, FORCE_OUT", "End the forces if they are not meant.");
-  if (axis.isRunning && causes[0]?.code !== "moves") add(`The sequence waits in ${axis.stepName(axis.step)}, ${waits.summary(axis)}.`, `STEP = ${axis.step}`, "Give it what it waits for.");
+  if (axis.isRunning && causes[0]?.code !== "moves") add(`The sequence waits in ${axis.boxName(axis.step)}, ${waits.summary(axis)}.`, `STEP = ${axis.step}`, "Give it what it waits for.");
   return [...list, ...causes.filter((cause) => !isFirst(cause)).map(findingOf)];
 }
