@@ -186,7 +186,7 @@ CLOCK = re.compile(
 BITS_ARE_FOR = "tools/seqc/table/"
 BITS = (
     (("tools/seqc/", "tools/verify/"), re.compile(r"\bfastmac::|protocol/fastmac\.h"), "table/commands.h"),
-    (("tools/seqc/", "tools/verify/"), re.compile(r"\b(?:bytes|term|table)_?\[(?!\")"), "table/terms.h"),
+    (("tools/seqc/", "tools/verify/", "host-sim/nanoplc_sim/"), re.compile(r"\b(?:bytes|term|table)_?\[(?!\")"), "table/terms.h"),
 )
 
 
