@@ -12,6 +12,7 @@
 #include "base/csv_row.h"
 #include "input_file.h"
 #include "sequencer/engine.h"
+#include "table/terms.h"
 
 namespace nplc::sim {
 namespace {
@@ -119,11 +120,11 @@ void set_preset(std::vector<std::uint8_t>& table, const StimulusPreset& preset, 
     for (const std::size_t term : preset.terms) {
         const std::size_t at = term * sequencer::kTermBytes;
         const bool is_there = term < sequencer::kMaxTerms && at + sequencer::kTermBytes <= table.size();
-        if (!is_there || sequencer::is_flex(sequencer::TermView(&table[at], sequencer::kTermBytes)))
+        const auto bytes = [&] { return std::span(table).subspan(at).first<sequencer::kTermBytes>(); };
+        if (!is_there || sequencer::is_flex(bytes()))
             throw InputError(
                 fmt::format("{}: the table has no preset in term {}; it is for another table", file, term));
-        table[at + 6] = static_cast<std::uint8_t>(preset.value);
-        table[at + 7] = static_cast<std::uint8_t>(preset.value >> 8U);
+        table::set_value(bytes(), preset.value);
     }
 }
 

@@ -182,6 +182,12 @@ CLOCK = re.compile(
     r"\b(?:\w+_clock\s*::\s*now|(?:std\s*::\s*)?chrono\s*::\s*\w+_clock|(?:steady|system|high_resolution)_clock"
     r"|clock_gettime|gettimeofday|timespec_get|std\s*::\s*time\s*\()"
 )
+# Only tools/seqc/table says what the bits of a command or a term mean; the simulated motor has its own idea of commands.
+BITS_ARE_FOR = "tools/seqc/table/"
+BITS = (
+    (("tools/seqc/", "tools/verify/"), re.compile(r"\bfastmac::|protocol/fastmac\.h"), "table/commands.h"),
+    (("tools/seqc/", "tools/verify/", "host-sim/nanoplc_sim/"), re.compile(r"\b(?:bytes|term|table)_?\[(?!\")"), "table/terms.h"),
+)
 
 
 def module_of(path):
@@ -213,6 +219,15 @@ class Checker:
             for match in CLOCK.finditer(blank_comments(text, strings=True)):
                 self.find(path, line_of(text, match.start()), "clock",
                           f"`{match.group(0)}`: time is a parameter; only hal/* and composition roots read a clock")
+
+        self.check_bits(path, text)
+
+    def check_bits(self, path, text):
+        for folders, pattern, header in BITS:
+            if not path.startswith(folders) or path.startswith(BITS_ARE_FOR):
+                continue
+            for match in pattern.finditer(blank_comments(text, strings=False)):
+                self.find(path, line_of(text, match.start()), "bits", f"`{match.group(0)}`: ask {header}, which names them")
 
     def check_include(self, path, module, line, bracket, header):
         prefix = header.split("/")[0] if "/" in header else None

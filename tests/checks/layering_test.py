@@ -117,6 +117,15 @@ class Layering(unittest.TestCase):
         for path in ["hal/linux/clock.cpp", "hal/mcu/clock.cpp", "firmware/boards/pi/main.cpp", "host-sim/sim_main.cpp"]:
             self.accepted(path, reads[0] + "\n")
 
+    def test_bits_of_commands_and_terms(self):
+        self.refused("bits", 1, "tools/seqc/semantics/a.cpp", '#include "protocol/fastmac.h"\n')
+        self.refused("bits", 2, "tools/verify/a.cpp", "\nint n = int(fastmac::Number::home);\n")
+        self.refused("bits", 1, "tools/seqc/listing/a.cpp", "int next = term[3] & 63;\n")
+        self.refused("bits", 1, "host-sim/nanoplc_sim/a.cpp", "table[at + 6] = 1;\n")
+        self.accepted("tools/seqc/table/a.cpp", '#include "protocol/fastmac.h"\nint next = term[3] & 63;\n')
+        self.accepted("tools/seqc/symbols/a.cpp", 'int rows = table["rows"];  // term[3]\n')
+        self.accepted("host-sim/nanoplc_sim/a.cpp", '#include "protocol/fastmac.h"\n')
+
     def test_a_header_nobody_owns(self):
         self.refused("unknown include", 1, "sequencer/a.cpp", '#include "nowhere.h"\n')
         self.refused("unknown include", 1, "sequencer/a.cpp", '#include "nowhere/a.h"\n')

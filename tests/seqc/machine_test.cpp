@@ -66,7 +66,7 @@ TEST(Machine, ReactionsLeaveOutWhatStaysAsItIs) {
     EXPECT_EQ(reactions[1].outcome.next, kIdle);
     EXPECT_EQ(reactions[1].outcome.counter, table::CounterChange::count_down);
     EXPECT_EQ(reactions[2].outcome.next, kFault);
-    EXPECT_TRUE(reactions[2].only_on_error());
+    EXPECT_TRUE((reactions[2].when & ~truth_of_bit(kErrorBit)).none());
 }
 
 TEST(Machine, WhatHoldsWithAndWithoutErrorIsOne) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "table/terms.h"
+
 namespace nplc::verify {
 namespace {
 
@@ -82,8 +84,8 @@ std::vector<std::uint8_t> bytes_with(const sequencer::Table& table, std::span<co
         const sequencer::TermView term = table.term(i);
         bytes.insert(bytes.end(), term.begin(), term.end());
         if (sequencer::is_flex(term)) continue;
-        table::set_preset(std::span(bytes).last<sequencer::kTermBytes>(),
-                          chosen_value(chosen, sequencer::decode(term).fast.preset));
+        table::set_value(std::span(bytes).last<sequencer::kTermBytes>(),
+                         chosen_value(chosen, static_cast<std::uint16_t>(table::value_of(term))));
     }
     bytes.push_back(sequencer::kEndOfTable);
     bytes.resize(bytes.size() + sequencer::kTermBytes - 1);

@@ -197,7 +197,7 @@ void add_addresses(Proposals& result, const Program& program, std::string_view p
 void add_commands(Proposals& result) {
     for (std::string_view name : command_names()) {
         const NamedCommand* command = find_command(name);
-        if (command != nullptr && !command->refusal.empty()) continue;
+        if (command != nullptr && command->is_of_link) continue;
         const bool selects = mode_named(name).has_value();
         Proposal proposal{Proposal::Kind::command, std::string(name), std::string(name) + ";", false, "", ""};
         if (selects || same_name(name, "USE_SET")) {

@@ -12,6 +12,7 @@
 #include "sequencer/term.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"
+#include "table/terms.h"
 #include "views/table_report.h"
 #include "views/table_text.h"
 
@@ -22,12 +23,6 @@ using sequencer::kTermBytes;
 
 sequencer::TermView term_at(const Compilation& compiled, std::size_t index) {
     return std::span(compiled.table).subspan(index * kTermBytes).first<kTermBytes>();
-}
-
-std::string hex(sequencer::TermView bytes) {
-    std::string text;
-    for (const std::uint8_t byte : bytes) text += fmt::format("{:02X} ", byte);
-    return text;
 }
 
 std::string ways_text(const Compilation& compiled, std::uint8_t step) {
@@ -59,7 +54,7 @@ std::string step_text(const Program& program, std::string_view name) {
         const sequencer::TermView bytes = term_at(compiled, i);
         if (sequencer::is_end(bytes) || sequencer::step_of(bytes) != *number) continue;
         if (++count <= kShown)
-            terms += fmt::format("{:4}  {} {}\n", i, hex(bytes), describe(bytes, &compiled.symbols));
+            terms += fmt::format("{:4}  {} {}\n", i, table::hex(bytes), describe(bytes, &compiled.symbols));
     }
     if (count > kShown) terms += fmt::format("... {} more\n", count - kShown);
     text += ways_text(compiled, *number);

@@ -26,8 +26,7 @@ std::string_view last_word(std::string_view text) {
 bool begins_move(const verify::PlayedScan& scan) {
     return std::any_of(scan.orders.begin(), scan.orders.end(), [](const sequencer::MotorOrder& order) {
         const auto select = order.is_register_write ? std::nullopt : select_command(order.command);
-        return select && select->mode == protocol::fastmac::Mode::position &&
-               select->selection.group == protocol::fastmac::Group::p;
+        return select && select->mode == table::Mode::position && select->selection.group == table::Group::p;
     });
 }
 

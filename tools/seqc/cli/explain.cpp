@@ -178,13 +178,13 @@ int list(const std::vector<Explanation>& all, bool json) {
 
 /// CLEAR_P_IST for 03H or 63H, the manuals' notation; other words unchanged.
 std::string command_of(const std::string& word) {
-    constexpr unsigned kCommandMode = 0x60;
     unsigned byte = 0;
     const char* const end = word.data() + word.size();
     const auto read = std::from_chars(word.data(), end, byte, 16);
     if (word.size() != 3 || read.ptr != end - 1 || word.back() != 'H' || byte > 0x7F) return word;
+    const auto number = static_cast<std::uint8_t>(byte);
     const std::string text =
-        describe_command(static_cast<std::uint8_t>(byte < 0x20 ? byte | kCommandMode : byte));
+        describe_command(byte < table::kCommandNumbers ? table::command_numbered(number) : number);
     return text.substr(0, text.find('('));
 }
 

@@ -10,6 +10,7 @@
 #include "sequencer/term.h"
 #include "set_points/values.h"
 #include "table/step.h"
+#include "table/terms.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -69,10 +70,11 @@ class AllValues {
         std::set<std::int32_t> used;
         std::int32_t greatest = 0;
         for (const sequencer::TermView bytes : table::terms_of(table_)) {
-            const sequencer::Term term = sequencer::decode(bytes);
-            if (term.is_flex) continue;
-            used.insert(term.fast.preset);
-            if (term.fast.presets_counter) greatest = std::max(greatest, std::int32_t{term.fast.preset});
+            const table::ValuePlace::Kind kind = table::value_place(bytes).kind;
+            if (kind == table::ValuePlace::Kind::reg) continue;
+            const auto preset = static_cast<std::int32_t>(table::value_of(bytes));
+            used.insert(preset);
+            if (kind == table::ValuePlace::Kind::counter) greatest = std::max(greatest, preset);
         }
         for (std::size_t i = 0; i < points_.size(); ++i) {
             if (is_count(i)) greatest = std::max(greatest, points_[i].highest);
@@ -271,7 +273,7 @@ class AllValues {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             for (const std::uint16_t place : points_[i].places) {
                 const std::span<std::uint8_t> term = std::span(bytes).subspan(place * sequencer::kTermBytes);
-                table::set_preset(term.first<sequencer::kTermBytes>(), static_cast<std::uint16_t>(values[i]));
+                table::set_value(term.first<sequencer::kTermBytes>(), static_cast<std::uint16_t>(values[i]));
             }
         }
         const auto loaded = sequencer::Table::load(bytes);

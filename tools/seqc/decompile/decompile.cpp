@@ -183,7 +183,8 @@ class Decompiler {
         const auto at = static_cast<std::size_t>(different.second - table_.begin());
         const std::size_t term =
             std::min(at, table_.size() - 1) / sequencer::kTermBytes * sequencer::kTermBytes;
-        const std::uint8_t step = table_[term] & 0x3F;
+        const std::uint8_t step =
+            sequencer::step_of(std::span(table_).subspan(term).first<sequencer::kTermBytes>());
         if (step == 0) exclusions.power_up = true;
         if (step == 0 && !draft_.power_up) exclusions.shape.set(0);
         if (step != 0) exclusions.shape.set(step);

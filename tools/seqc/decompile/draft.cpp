@@ -38,7 +38,7 @@ Action common_tail(const std::vector<const Action*>& actions) {
 
 bool starts_a_move(const Send& send) {
     const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
-    return select && select->mode != protocol::fastmac::Mode::init;
+    return select && select->mode != table::Mode::init;
 }
 
 Action moves_at_the_end(const Action& action) {

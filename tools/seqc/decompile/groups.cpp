@@ -35,7 +35,7 @@ Group group_of(std::span<const TermBytes> terms, registers::Model model) {
     group.when = table::cases_of(terms.front());
     for (const TermBytes& bytes : terms) {
         const Term term = sequencer::decode(bytes);
-        if (term.is_flex || term.fast.sends) group.action.sends.push_back(send_of(term, model));
+        if (sequencer::has_order(bytes)) group.action.sends.push_back(send_of(bytes, model));
         if (!term.is_flex) add_fast(term.fast, group);
     }
     Effect effect;

@@ -16,8 +16,8 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Mode;
-using RegisterGroup = protocol::fastmac::Group;
+using table::Mode;
+using RegisterGroup = table::Group;
 
 constexpr std::uint8_t kLastCommonRegister = 88;  // the same on all motors up to here
 

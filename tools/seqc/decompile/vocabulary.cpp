@@ -9,6 +9,8 @@
 #include "registers/scale.h"
 #include "semantics/commands.h"
 #include "semantics/units.h"
+#include "sequencer/state.h"
+#include "table/terms.h"
 
 namespace nplc::seqc {
 namespace {
@@ -17,12 +19,7 @@ using registers::Format;
 using registers::Model;
 using registers::Register;
 using registers::Unit;
-using sequencer::FastStatement;
-using sequencer::FlexStatement;
-using sequencer::Term;
 
-constexpr std::uint8_t kFirstNameless = 0x77;  // 17h - 1Ch are further NOPs (001 §5.2.1.4)
-constexpr std::uint8_t kLastNameless = 0x7C;
 constexpr std::size_t kLongestDecimal = 10;
 
 /// The signed number in a register's bits, in raw steps.
@@ -32,34 +29,42 @@ std::int64_t number_of(const Register& reg, std::uint32_t bits) {
     return static_cast<std::int16_t>(bits);
 }
 
-std::uint32_t bits_of(const FlexStatement& flex) {
-    return flex.low_word | (flex.longword ? static_cast<std::uint32_t>(flex.high_word) << 16 : 0U);
+std::string_view text_of(table::Oddity oddity) {
+    switch (oddity) {
+        case table::Oddity::none:
+        case table::Oddity::upper_word_not_sent:
+            break;
+        case table::Oddity::of_step_62:
+            return "the step cannot have a name";
+        case table::Oddity::level_without_care:
+            return "it wants inputs it does not care for";
+        case table::Oddity::next_is_63:
+            return "NEXT 63 is no step";
+        case table::Oddity::unused_bits:
+            return "unused bits are set";
+        case table::Oddity::command_not_sent:
+            return "it holds a command that is not sent";
+        case table::Oddity::counter_preset_of_0:
+            return "CNT_TIME is set and nothing is preset";
+        case table::Oddity::register_0:
+            return "register 0 cannot be written";
+    }
+    return {};
 }
 
-bool is_link_command(std::uint8_t command) {
-    if (select_command(command)) return false;
-    const NamedCommand* named = find_command(describe_command(command));
-    return named != nullptr && !named->refusal.empty();
+std::string_view command_obstacle(std::uint8_t command) {
+    if (!table::has_name(command)) return "the command has no name";
+    const NamedCommand* named = table::named_command(command);
+    return named != nullptr && named->is_of_link ? "the command changes how gateway and motor talk" : "";
 }
 
-std::string_view fast_obstacle(const FastStatement& fast) {
-    if (fast.next_step == sequencer::kEndOfTable) return "NEXT 63 is no step";
-    if (fast.available_next_bit7 || fast.available_outputs != 0) return "unused bits are set";
-    if (!fast.sends && fast.command != 0) return "it holds a command that is not sent";
-    if (fast.presets_counter && fast.preset == 0) return "CNT_TIME is set and nothing is preset";
-    if (!fast.sends) return {};
-    if (fast.command >= kFirstNameless && fast.command <= kLastNameless) return "the command has no name";
-    return is_link_command(fast.command) ? "the command changes how gateway and motor talk" : "";
-}
-
-std::string_view flex_obstacle(const FlexStatement& flex, Model model) {
-    if (flex.reg == 0) return "register 0 cannot be written";
-    const Register* reg = registers::find(model, flex.reg);
+std::string_view write_obstacle(const sequencer::MotorOrder& write, table::Oddity oddity, Model model) {
+    const Register* reg = registers::find(model, write.reg);
     if (reg == nullptr) return "the motor has no register of this number";
-    if (flex.longword != registers::is_32_bit(reg->format))
-        return flex.longword ? "32 bits for a register of 16" : "16 bits for a register of 32";
-    if (!flex.longword && flex.high_word != 0) return "the upper word is not sent";
-    const std::int64_t number = number_of(*reg, bits_of(flex));
+    if (write.longword != registers::is_32_bit(reg->format))
+        return write.longword ? "32 bits for a register of 16" : "16 bits for a register of 32";
+    if (oddity == table::Oddity::upper_word_not_sent) return "the upper word is not sent";
+    const std::int64_t number = number_of(*reg, write.value);
     return number < reg->min || number > reg->max ? "the value is out of the register's range" : "";
 }
 
@@ -122,17 +127,18 @@ bool is_rounded(const Register& reg, std::int64_t number, const Symbols& symbols
 
 }  // namespace
 
-std::string_view obstacle(sequencer::TermView bytes, Model model) {
-    const Term term = sequencer::decode(bytes);
-    if (term.condition.step >= sequencer::kLastStep) return "the step cannot have a name";
-    if ((term.condition.input & ~term.condition.care & 0x7F) != 0)
-        return "it wants inputs it does not care for";
-    return term.is_flex ? flex_obstacle(term.flex, model) : fast_obstacle(term.fast);
+std::string_view obstacle(sequencer::TermView term, Model model) {
+    const table::Oddity oddity = table::oddity_of(term);
+    if (const std::string_view text = text_of(oddity); !text.empty()) return text;
+    if (!sequencer::has_order(term)) return {};
+    const sequencer::MotorOrder order = sequencer::order_of(term);
+    return order.is_register_write ? write_obstacle(order, oddity, model) : command_obstacle(order.command);
 }
 
-Send send_of(const Term& term, Model model) {
-    if (!term.is_flex) return {nullptr, term.fast.command, 0, {}};
-    return {registers::find(model, term.flex.reg), 0, bits_of(term.flex), {}};
+Send send_of(sequencer::TermView term, Model model) {
+    const sequencer::MotorOrder order = sequencer::order_of(term);
+    if (!order.is_register_write) return {nullptr, order.command, 0, {}};
+    return {registers::find(model, order.reg), 0, order.value, {}};
 }
 
 ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& symbols, bool exact_places) {

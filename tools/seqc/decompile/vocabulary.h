@@ -13,10 +13,10 @@
 namespace nplc::seqc {
 
 /// Why these bytes cannot be a single symbolic TERM; empty if they can.
-std::string_view obstacle(sequencer::TermView bytes, registers::Model model);
+std::string_view obstacle(sequencer::TermView term, registers::Model model);
 
 /// The command or register write of a term that has one and no obstacle().
-Send send_of(const sequencer::Term& term, registers::Model model);
+Send send_of(sequencer::TermView term, registers::Model model);
 
 /// A register's value as written in a program, and in a physical unit if it has one. With a SCALE that gives
 /// an exact length, positions are written in that unit; with `exact_places` in counts where it is rounded.

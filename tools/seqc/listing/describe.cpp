@@ -3,25 +3,34 @@
 #include <fmt/format.h>
 
 #include "semantics/commands.h"
+#include "sequencer/state.h"
+#include "table/terms.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
 
-using sequencer::Condition;
 using sequencer::FastStatement;
-using sequencer::FlexStatement;
 
-std::string term_condition_text(const Condition& condition, const Symbols* symbols) {
-    std::string text;
-    for (std::size_t bit = 0; bit < 7; ++bit) {
-        if (((condition.care >> bit) & 1) == 0) continue;
-        const std::string name = bit == 6 ? "INPOS" : input_name(bit, symbols);
-        append(text, ((condition.input >> bit) & 1) != 0 ? name : "NOT " + name, " AND ");
+std::string key_bit_name(unsigned bit, const Symbols* symbols) {
+    switch (bit) {
+        case table::kInPosBit:
+            return "INPOS";
+        case table::kErrorBit:
+            return "ERROR";
+        case table::kTimerZero:
+            return "TIMER.Q";
+        case table::kCounterZero:
+            return "COUNTER.Q";
+        default:
+            return input_name(bit, symbols);
     }
-    if (condition.needs_timer_zero) append(text, "TIMER.Q", " AND ");
-    if (condition.needs_counter_zero) append(text, "COUNTER.Q", " AND ");
-    append(text, (condition.input & sequencer::kError) != 0 ? "ERROR" : "NOT ERROR", " AND ");
+}
+
+std::string term_condition_text(sequencer::TermView term, const Symbols* symbols) {
+    std::string text;
+    for (const table::Compared& compared : table::compared_by(term))
+        append(text, (compared.level ? "" : "NOT ") + key_bit_name(compared.key_bit, symbols), " AND ");
     return text;
 }
 
@@ -47,37 +56,34 @@ std::string fast_text(const FastStatement& fast, const Symbols* symbols) {
     return text;
 }
 
-std::string flex_text(const FlexStatement& flex, const Symbols* symbols) {
-    if (flex.reg == 0) return "register 0 (refused by a gateway)";
-    const registers::Register* reg = find_register(flex.reg, symbols);
+std::string write_text(const sequencer::MotorOrder& write, const Symbols* symbols) {
+    const registers::Register* reg = find_register(write.reg, symbols);
     const std::string name =
-        reg != nullptr ? fmt::format("REG({}) {}", flex.reg, reg->name) : fmt::format("REG({})", flex.reg);
-    const sequencer::MotorOrder write{
-        .is_register_write = true,
-        .reg = flex.reg,
-        .longword = flex.longword,
-        .value = flex.longword ? (std::uint32_t{flex.high_word} << 16) | flex.low_word : flex.low_word};
+        reg != nullptr ? fmt::format("REG({}) {}", write.reg, reg->name) : fmt::format("REG({})", write.reg);
     const std::string number = std::to_string(value_of(write, symbols));
     const std::string value = value_text(write, symbols);
     return fmt::format("{} := {}{}, {} bits", name, number, value == number ? "" : " (" + value + ")",
-                       flex.longword ? 32 : 16);
+                       write.longword ? 32 : 16);
+}
+
+std::string statement_text_of(sequencer::TermView term, const Symbols* symbols) {
+    if (table::fault_of(term) == table::TermFault::register_0) return "register 0 (refused by a gateway)";
+    return sequencer::is_flex(term) ? write_text(sequencer::order_of(term), symbols)
+                                    : fast_text(sequencer::decode(term).fast, symbols);
 }
 
 }  // namespace
 
-std::string describe(sequencer::TermView bytes, const Symbols* symbols) {
-    if (sequencer::is_end(bytes)) return "end of the table";
-    const sequencer::Term term = sequencer::decode(bytes);
-    return fmt::format("{}: IF {} THEN {}", step_name(term.condition.step, symbols),
-                       term_condition_text(term.condition, symbols),
-                       term.is_flex ? flex_text(term.flex, symbols) : fast_text(term.fast, symbols));
+std::string describe(sequencer::TermView term, const Symbols* symbols) {
+    if (sequencer::is_end(term)) return "end of the table";
+    return fmt::format("{}: IF {} THEN {}", step_name(sequencer::step_of(term), symbols),
+                       term_condition_text(term, symbols), statement_text_of(term, symbols));
 }
 
-std::string byte_line(sequencer::TermView bytes) {
-    std::string text = "TERM ";
-    for (std::size_t i = 0; i < sequencer::kTermBytes; ++i)
-        text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
-    return text + ";";
+std::string byte_line(sequencer::TermView term) {
+    std::string text;
+    for (const std::uint8_t byte : term) append(text, fmt::format("16#{:02X}", byte), ", ");
+    return "TERM " + text + ";";
 }
 
 }  // namespace nplc::seqc

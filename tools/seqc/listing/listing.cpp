@@ -6,6 +6,7 @@
 #include "semantics/motors.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
+#include "table/terms.h"
 #include "views/set_points_text.h"
 #include "views/table_report.h"
 
@@ -16,11 +17,9 @@ using sequencer::kTermBytes;
 
 std::string term_line(std::size_t index, sequencer::TermView bytes, const Compilation& compilation,
                       const Places& places, std::size_t width) {
-    std::string hex;
-    for (std::uint8_t byte : bytes) hex += fmt::format("{:02X} ", byte);
     const Span span = compilation.origins[index].span;
     const std::string line = span.length == 0 ? "-" : places.line_text(span.offset);
-    return fmt::format("{:5} {:>{}}  {} {}\n", index, line, width, hex,
+    return fmt::format("{:5} {:>{}}  {} {}\n", index, line, width, table::hex(bytes),
                        describe(bytes, &compilation.symbols));
 }
 

@@ -86,7 +86,7 @@ void append_terms(const Effect& effect, const sequencer::Condition& condition,
         } else {
             FastStatement* fast = add_fast(send.span);
             fast->sends = true;
-            fast->command = send.command & 0x7F;
+            fast->command = send.command;
         }
     }
     const auto is_fast = [](const Term& term) { return !term.is_flex; };

@@ -3,42 +3,40 @@
 #include <algorithm>
 #include <set>
 
+#include "table/terms.h"
+
 namespace nplc::seqc {
 namespace {
 
 using set_points::ValueKind;
 
-/// Kind and register of a value.
-using Target = std::pair<ValueKind, std::uint8_t>;
+using Target = table::ValuePlace;
 
 Target target_of(const DeclaredSetPoint& declared) {
-    return {declared.point.kind, declared.point.reg};
-}
-
-Target target_of(const sequencer::Term& term) {
-    if (term.is_flex) return {ValueKind::motor_register, term.flex.reg};
-    return {term.fast.presets_counter ? ValueKind::counter : ValueKind::timer, std::uint8_t{0}};
-}
-
-std::uint32_t value_of(const sequencer::Term& term) {
-    if (!term.is_flex) return term.fast.preset;
-    return term.flex.low_word | (term.flex.longword ? std::uint32_t{term.flex.high_word} << 16 : 0U);
+    switch (declared.point.kind) {
+        case ValueKind::motor_register:
+            return {Target::Kind::reg, declared.point.reg};
+        case ValueKind::counter:
+            return {Target::Kind::counter};
+        case ValueKind::timer:
+            break;
+    }
+    return {Target::Kind::timer};
 }
 
 void collect(const Action& action, const Target& target, std::set<std::uint32_t>& used) {
     for (const Send& send : action.sends) {
-        if (send.reg != nullptr && target == Target{ValueKind::motor_register, send.reg->number})
+        if (send.reg != nullptr && target == Target{Target::Kind::reg, send.reg->number})
             used.insert(send.value);
     }
-    if (action.timer && target.first == ValueKind::timer) used.insert(*action.timer);
-    if (action.counter && target.first == ValueKind::counter) used.insert(*action.counter);
+    if (action.timer && target.kind == Target::Kind::timer) used.insert(*action.timer);
+    if (action.counter && target.kind == Target::Kind::counter) used.insert(*action.counter);
 }
 
 std::set<std::uint32_t> used_values(const Plan& plan, const Target& target) {
     std::set<std::uint32_t> used;
     const auto collect_raw = [&](const RawTerm& raw) {
-        const sequencer::Term term = sequencer::decode(raw.bytes);
-        if (target_of(term) == target) used.insert(value_of(term));
+        if (table::value_place(raw.bytes) == target) used.insert(table::value_of(raw.bytes));
     };
     for (const StepPlan& step : plan.steps) {
         for (const Rule& rule : step.rules) collect(rule.action, target, used);
@@ -46,17 +44,6 @@ std::set<std::uint32_t> used_values(const Plan& plan, const Target& target) {
     }
     for (const RawTerm& raw : plan.terms) collect_raw(raw);
     return used;
-}
-
-void set_value(sequencer::TermBytes& bytes, std::uint32_t value) {
-    sequencer::Term term = sequencer::decode(bytes);
-    if (term.is_flex) {
-        term.flex.low_word = static_cast<std::uint16_t>(value);
-        if (term.flex.longword) term.flex.high_word = static_cast<std::uint16_t>(value >> 16);
-    } else {
-        term.fast.preset = static_cast<std::uint16_t>(value);
-    }
-    bytes = sequencer::encode(term);
 }
 
 }  // namespace
@@ -98,9 +85,10 @@ void SetPointMarks::place(std::vector<LoweredTerm>& terms, std::vector<set_point
         const std::uint32_t initial = points_[p].reg == nullptr ? static_cast<std::uint32_t>(point.initial)
                                                                 : bits_of(point.initial, *points_[p].reg);
         for (std::size_t i = 0; i < terms.size(); ++i) {
-            const sequencer::Term term = sequencer::decode(terms[i].bytes);
-            if (target_of(term) != target_of(points_[p]) || value_of(term) != marks_[p]) continue;
-            set_value(terms[i].bytes, initial);
+            sequencer::TermBytes& term = terms[i].bytes;
+            if (table::value_place(term) != target_of(points_[p]) || table::value_of(term) != marks_[p])
+                continue;
+            table::set_value(term, initial);
             point.places.push_back(static_cast<std::uint16_t>(i));
         }
     }

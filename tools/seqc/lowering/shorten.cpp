@@ -57,7 +57,7 @@ LoweredTerm lowered(const PlacedTerm& placed, const ReducedStep& half) {
     term.fast.presets_counter = placed.preset == Preset::counter;
     term.fast.preset = placed.value;
     term.fast.sends = placed.order != nullptr;
-    if (placed.order != nullptr) term.fast.command = placed.order->send->command & 0x7F;
+    if (placed.order != nullptr) term.fast.command = placed.order->send->command;
     return {sequencer::encode(term), span_of(placed, half)};
 }
 

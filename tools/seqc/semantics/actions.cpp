@@ -12,9 +12,9 @@ namespace nplc::seqc {
 namespace {
 
 using ast::Statement;
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
 using set_points::ValueKind;
+using table::Group;
+using table::Mode;
 
 constexpr double kLongest = 65'535;
 
@@ -269,9 +269,9 @@ void ActionBuilder::add_command(const Statement& statement) {
                             fmt::format("there is no command '{}'", statement.name.text), help);
         return;
     }
-    if (!command->refusal.empty()) {
+    if (command->is_of_link) {
         scope_.report().add("E051", statement.span, fmt::format("a sequence cannot send {}", command->name),
-                            std::string(command->refusal));
+                            std::string(kLinkRefusal));
         return;
     }
     if (statement.has_arguments) {
@@ -280,7 +280,7 @@ void ActionBuilder::add_command(const Statement& statement) {
                             fmt::format("write {};", command->name));
         return;
     }
-    add_send(statement, protocol::fastmac::command_byte(command->number));
+    add_send(statement, command->command);
 }
 
 void ActionBuilder::add_use_set(const Statement& statement) {
@@ -291,9 +291,7 @@ void ActionBuilder::add_use_set(const Statement& statement) {
                             "write USE_SET(1);");
         return;
     }
-    add_send(statement,
-             static_cast<std::uint8_t>(protocol::fastmac::command_byte(protocol::fastmac::Number::use_set_1) +
-                                       (statement.arguments[0].text[0] - '1')));
+    add_send(statement, table::use_set(static_cast<std::uint8_t>(statement.arguments[0].text[0] - '0')));
 }
 
 /// POSITION(Pitch), with CONST Pitch.
@@ -369,7 +367,7 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     std::stable_sort(selections.begin(), selections.end(), [&](const Selection& a, const Selection& b) {
         return rank(a.group, mode) < rank(b.group, mode);
     });
-    for (const Selection& selection : selections) add_send(statement, command_byte(mode, selection));
+    for (const Selection& selection : selections) add_send(statement, table::command_byte(mode, selection));
 }
 
 std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope) {

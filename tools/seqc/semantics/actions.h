@@ -28,8 +28,8 @@ class ActionBuilder {
     void add_assignment(const ast::Statement& statement, const registers::Register* reg,
                         std::string_view shown);
     void add_command(const ast::Statement& statement);
-    bool refuse_constant(const ast::Name& name, protocol::fastmac::Mode mode);
-    void add_selections(const ast::Statement& statement, protocol::fastmac::Mode mode);
+    bool refuse_constant(const ast::Name& name, table::Mode mode);
+    void add_selections(const ast::Statement& statement, table::Mode mode);
     void add_use_set(const ast::Statement& statement);
     void add_timer(const ast::Statement& statement);
     void add_switch(const ast::Statement& statement);

@@ -10,15 +10,15 @@
 #include "semantics/commands.h"
 #include "semantics/drive.h"
 #include "semantics/motors.h"
+#include "semantics/orders.h"
 #include "semantics/step_walk.h"
 #include "semantics/units.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
-using protocol::fastmac::Number;
+using table::Group;
+using table::Mode;
 
 /// A value that a register is given: a constant, or a set-point with every value of its range.
 struct Given {
@@ -65,32 +65,15 @@ struct Effect {
     bool stops = false;                   ///< V_SOLL = 0
 };
 
-constexpr std::uint8_t register_of(Selection selection) {
-    return static_cast<std::uint8_t>((selection.group == Group::v ? registers::V1 : registers::A1) +
-                                     selection.index - 1);
-}
-
-Effect effect_of_number(std::uint8_t number) {
-    switch (static_cast<Number>(number)) {
-        case Number::clear_v_soll:
-            return {.stops = true};
-        case Number::clear_p_soll:
-        case Number::move_p7_by_p_soll:
-        case Number::move_p8_by_p_soll:
-            return {.sets_position = true};
-        case Number::use_set_1:
-        case Number::use_set_2:
-        case Number::use_set_3:
-        case Number::use_set_4: {
-            const auto index =
-                static_cast<std::uint8_t>(number - static_cast<std::uint8_t>(Number::use_set_1));
-            return {.v = static_cast<std::uint8_t>(registers::V1 + index),
-                    .a = static_cast<std::uint8_t>(registers::A1 + index),
-                    .sets_position = true};
-        }
-        default:
-            return {};
+Effect effect_of_number(const Send& send) {
+    if (const auto set = table::set_used(send.command)) {
+        return {.v = table::register_of({Group::v, *set}),
+                .a = table::register_of({Group::a, *set}),
+                .sets_position = true};
     }
+    if (const auto move = table::relative_move(send.command)) return {.sets_position = move->from_p_soll};
+    const OrderKind kind = kind_of(send);
+    return {.sets_position = kind == OrderKind::clears_p_soll, .stops = kind == OrderKind::stop};
 }
 
 Effect effect_of_write(const Send& send) {
@@ -111,10 +94,10 @@ Effect effect_of_write(const Send& send) {
 Effect effect_of(const Send& send) {
     if (send.reg != nullptr) return effect_of_write(send);
     const auto select = select_command(send.command);
-    if (!select) return effect_of_number(send.command & 0x1F);
+    if (!select) return effect_of_number(send);
     Effect effect{.mode = select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U};
-    if (select->selection.group == Group::v) effect.v = register_of(select->selection);
-    if (select->selection.group == Group::a) effect.a = register_of(select->selection);
+    if (select->selection.group == Group::v) effect.v = table::register_of(select->selection);
+    if (select->selection.group == Group::a) effect.a = table::register_of(select->selection);
     effect.sets_position = select->selection.group == Group::p;
     return effect;
 }

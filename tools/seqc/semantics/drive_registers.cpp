@@ -7,30 +7,12 @@
 #include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/motors.h"
+#include "sequencer/state.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Number;
-
-std::uint8_t register_of(Group group, unsigned index) {
-    switch (group) {
-        case Group::p:
-            return static_cast<std::uint8_t>(registers::P1 + 2 * (index - 1));
-        case Group::v:
-            return static_cast<std::uint8_t>(registers::V1 + index - 1);
-        case Group::a:
-            return static_cast<std::uint8_t>(registers::A1 + index - 1);
-        case Group::t:
-            return static_cast<std::uint8_t>(registers::T1 + index - 1);
-        case Group::l:
-            return static_cast<std::uint8_t>(registers::L1 + index - 1);
-        case Group::z:
-            break;
-    }
-    return static_cast<std::uint8_t>(registers::Z1 + index - 1);
-}
+using table::Group;
 
 class UnsetRegisters {
   public:
@@ -51,28 +33,26 @@ class UnsetRegisters {
 
   private:
     void take(const RawTerm& term) {
-        const sequencer::Term decoded = sequencer::decode(term.bytes);
-        if (!decoded.is_flex) return;
-        given_.insert(decoded.flex.reg);
-        if (decoded.flex.longword) given_.insert(static_cast<std::uint8_t>(decoded.flex.reg + 1));
+        if (!sequencer::is_flex(term.bytes)) return;
+        const sequencer::MotorOrder write = sequencer::order_of(term.bytes);
+        given_.insert(write.reg);
+        if (write.longword) given_.insert(static_cast<std::uint8_t>(write.reg + 1));
     }
 
     void judge(const Send& send) {
         if (send.reg != nullptr || !judged_.insert({send.span.offset, send.command}).second) return;
-        if (const auto select = select_command(send.command))
-            return judge(send, select->selection.group, select->selection.index);
-        const unsigned number = send.command & 0x1FU;
-        const auto first = static_cast<unsigned>(Number::use_set_1);
-        if (number < first || number > static_cast<unsigned>(Number::use_set_4)) return;
+        if (const auto select = select_command(send.command)) return judge(send, select->selection);
+        const auto set = table::set_used(send.command);
+        if (!set) return;
         // Only the groups used in every set: T and Z are often left unchanged.
-        for (const Group group : {Group::p, Group::v, Group::a}) judge(send, group, number - first + 1);
+        for (const Group group : {Group::p, Group::v, Group::a}) judge(send, {group, *set});
     }
 
-    void judge(const Send& send, Group group, unsigned index) {
-        const std::uint8_t number = register_of(group, index);
+    void judge(const Send& send, Selection selection) {
+        const std::uint8_t number = table::register_of(selection);
         if (given_.contains(number)) return;
         const std::string name(registers::find(registers::Model::mac140, number)->name);
-        const bool is_place = group == Group::p;
+        const bool is_place = selection.group == Group::p;
         report_.add(
             "W017", send.span,
             is_place ? fmt::format("{} is never given a value: with a {} it is the place 0", name,

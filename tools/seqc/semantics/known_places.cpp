@@ -19,8 +19,8 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
+using table::Group;
+using table::Mode;
 
 /// The values that a register may have: a set-point's range, or one.
 struct Values {

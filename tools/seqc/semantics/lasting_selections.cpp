@@ -15,8 +15,7 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Number;
+using table::Group;
 
 /// V, A and T: the parameters of a move besides its position.
 constexpr std::array<Group, 3> kGroups = {Group::v, Group::a, Group::t};
@@ -96,12 +95,13 @@ class SelectionWalk {
         const auto written = group_written(send);
         const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
         const bool stops = send.reg == nullptr && kind_of(send) == OrderKind::stop;
+        const auto set = send.reg == nullptr ? table::set_used(send.command) : std::nullopt;
         for (std::size_t i = 0; i < kGroups.size(); ++i) {
             if (written == kGroups[i]) state.selected[i] = {{0, send.value, moves_, send.span}};
             if (select && select->selection.group == kGroups[i])
                 state.selected[i] = {{select->selection.index, 0, moves_, send.span}};
             if (stops && kGroups[i] == Group::v) state.selected[i].clear();  // W004 tells
-            if (is_set(send)) state.selected[i] = {{index_of_set(send), 0, false, send.span}};
+            if (set) state.selected[i] = {{*set, 0, false, send.span}};
         }
     }
 
@@ -115,12 +115,6 @@ class SelectionWalk {
     }
 
   private:
-    static std::uint8_t index_of_set(const Send& send) {
-        return static_cast<std::uint8_t>((send.command & 0x1F) -
-                                         static_cast<std::uint8_t>(Number::use_set_1) + 1);
-    }
-    static bool is_set(const Send& send) { return kind_of(send) == OrderKind::set; }
-
     /// `VELOCITY(Fast, Soft)` selects one after the other.
     static bool names_itself(const Rule& rule, const Send& send, Group group) {
         return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [&](const Send& other) {

@@ -13,8 +13,8 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
+using table::Group;
+using table::Mode;
 
 /// The modes that selecting commands set, and one bit for all others.
 enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 8, kAnyMode = 15 };

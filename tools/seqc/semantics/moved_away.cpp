@@ -96,7 +96,7 @@ class AwayWalk {
     static void apply_command(AwayState& state, const Send& send) {
         const OrderKind kind = kind_of(send);
         const auto select = select_command(send.command);
-        if (select ? select->selection.group == protocol::fastmac::Group::p
+        if (select ? select->selection.group == table::Group::p
                    : kind == OrderKind::moves_by || kind == OrderKind::set) {
             state.soll_is_0 = false;
             state.ran = {};

@@ -3,7 +3,7 @@
 namespace nplc::seqc {
 
 sequencer::MotorOrder order_of(const Send& send) {
-    if (send.reg == nullptr) return {.command = static_cast<std::uint8_t>(send.command & 0x7F)};
+    if (send.reg == nullptr) return {.command = send.command};
     const bool longword = registers::is_32_bit(send.reg->format);
     return {
         .is_register_write = true,

@@ -10,23 +10,18 @@
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
+#include "semantics/orders.h"
 #include "semantics/scope.h"
 #include "semantics/units.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Number;
+using table::Group;
 
 /// From the manufacturers' data sheets; a MAC800 above it stops with an error (004).
 constexpr double kTopSpeedSmall = 4000;
 constexpr double kTopSpeedMac800 = 3600;
-
-bool is_number(const Send& send, Number number) {
-    return send.reg == nullptr && !select_command(send.command) &&
-           static_cast<Number>(send.command & 0x1F) == number;
-}
 
 /// True when the bit is 1 and false when it is 0.
 bool waits_for(const Truth& when, std::size_t bit) {
@@ -136,11 +131,8 @@ class Oversights {
     static std::optional<Selection> selected_by(const Send& send) {
         if (send.reg != nullptr) return std::nullopt;
         if (const auto select = select_command(send.command)) return select->selection;
-        if (is_number(send, Number::move_p7_by_p_fnc) || is_number(send, Number::move_p7_by_p_soll))
-            return Selection{Group::p, 7};
-        if (is_number(send, Number::move_p8_by_p_fnc) || is_number(send, Number::move_p8_by_p_soll))
-            return Selection{Group::p, 8};
-        return std::nullopt;
+        const auto move = table::relative_move(send.command);
+        return move ? std::optional(Selection{Group::p, move->index}) : std::nullopt;
     }
 
     void check_presets(std::size_t bit, Code code, const char* test, const char* what, const char* how) {
@@ -257,7 +249,7 @@ class Oversights {
         for_each_rule([&](const StepPlan&, const Rule& rule) {
             const bool on_error = (rule.when & truth_of_bit(kErrorBit)).any();
             for (const Send& send : rule.action.sends) {
-                if (!is_number(send, Number::reset_error)) continue;
+                if (send.reg != nullptr || kind_of(send) != OrderKind::reset_error) continue;
                 reset = &rule;
                 under_error = under_error || on_error;
             }

@@ -6,6 +6,7 @@
 
 #include "semantics/drive.h"
 #include "sequencer/term.h"
+#include "table/terms.h"
 
 namespace nplc::seqc {
 namespace {
@@ -20,15 +21,15 @@ void warn_if_not_for_drive(Span span, const sequencer::Term& term, const registe
 }
 
 void check_raw_term(const RawTerm& raw, const registers::DriveModel* drive, Report& report) {
-    const sequencer::Term term = sequencer::decode(raw.bytes);
-    if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
+    const table::TermFault fault = table::fault_of(raw.bytes);
+    if (fault == table::TermFault::next_is_63) {
         report.add("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
                    "write 16#3E as the fourth byte if the step is to stay");
-    } else if (term.is_flex && term.flex.reg == 0) {
+    } else if (fault == table::TermFault::register_0) {
         report.add("W009", raw.span, "register 0: a gateway refuses a table with this term",
                    "bits 6..0 of the fourth byte name the register, 1..127");
     } else if (drive != nullptr) {
-        warn_if_not_for_drive(raw.span, term, *drive, report);
+        warn_if_not_for_drive(raw.span, sequencer::decode(raw.bytes), *drive, report);
     }
 }
 

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kNothing = 1e-6;  // counts; what working out with fractions leaves
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Number;
+using table::Group;
 
 /// Whether selecting a position may be a relative move.
 struct PositionState {
@@ -65,12 +64,9 @@ class RelativeWalk {
                 warn(select->selection.index, send, state.since);
             return;
         }
-        const auto number = static_cast<Number>(send.command & 0x1F);
-        if (number == Number::move_p7_by_p_soll || number == Number::move_p7_by_p_fnc) warn(7, send, {});
-        if (number == Number::move_p8_by_p_soll || number == Number::move_p8_by_p_fnc) warn(8, send, {});
-        const auto set = static_cast<std::uint8_t>(number) - static_cast<std::uint8_t>(Number::use_set_1);
-        if (set >= 0 && set < 4 && state.relative)
-            warn(static_cast<std::uint8_t>(set + 1), send, state.since);
+        if (const auto move = table::relative_move(send.command)) warn(move->index, send, {});
+        const auto set = table::set_used(send.command);
+        if (set && state.relative) warn(*set, send, state.since);
     }
 
     void warn(std::uint8_t index, const Send& selection, Span since) {

@@ -356,7 +356,7 @@ namespace {
 /// A position, velocity or acceleration to which SCALE applies.
 bool is_of_machine(const Register& reg) {
     const auto selection = selection_of(reg.number);
-    using protocol::fastmac::Group;
+    using table::Group;
     return (selection &&
             (selection->group == Group::p || selection->group == Group::v || selection->group == Group::a)) ||
            reg.number == registers::P_SOLL || reg.number == registers::V_SOLL ||

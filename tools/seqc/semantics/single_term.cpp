@@ -155,7 +155,7 @@ class TermEncoder {
         send_ = send;
         if (send.reg != nullptr) return;
         term_.fast.sends = true;
-        term_.fast.command = send.command & 0x7F;
+        term_.fast.command = send.command;
     }
 
     void add_preset(const Statement& statement, bool counter, std::uint16_t value) {

@@ -9,15 +9,13 @@
 #include <unordered_set>
 #include <utility>
 
-#include "protocol/fastmac.h"
 #include "semantics/commands.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
-using protocol::fastmac::Number;
+using table::Group;
 using Place = std::pair<Group, std::uint8_t>;
 
 class Unused {
@@ -77,14 +75,11 @@ class Unused {
             selected_.insert({select->selection.group, select->selection.index});
             return;
         }
-        const auto number = static_cast<std::uint8_t>(send.command & 0x1F);
-        const auto is = [&](Number wanted) { return static_cast<Number>(number) == wanted; };
-        if (is(Number::move_p7_by_p_fnc) || is(Number::move_p7_by_p_soll)) selected_.insert({Group::p, 7});
-        if (is(Number::move_p8_by_p_fnc) || is(Number::move_p8_by_p_soll)) selected_.insert({Group::p, 8});
-        const auto first = static_cast<std::uint8_t>(Number::use_set_1);
-        if (number < first || number >= first + 4) return;
+        if (const auto move = table::relative_move(send.command)) selected_.insert({Group::p, move->index});
+        const auto set = table::set_used(send.command);
+        if (!set) return;
         for (const Group group : {Group::p, Group::v, Group::a, Group::t, Group::l, Group::z})
-            selected_.insert({group, static_cast<std::uint8_t>(number - first + 1)});
+            selected_.insert({group, *set});
     }
 
     bool is_used(const ast::Name& name) const { return used_.contains(upper(name.text)); }

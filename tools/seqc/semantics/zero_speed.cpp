@@ -13,7 +13,7 @@
 namespace nplc::seqc {
 namespace {
 
-using protocol::fastmac::Group;
+using table::Group;
 
 /// What V_SOLL got its value from: V1..V8 by index, or 0 for what is written to V_SOLL itself.
 struct Source {

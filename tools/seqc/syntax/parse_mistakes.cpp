@@ -135,7 +135,7 @@ bool Parser::refuse_modulo(ast::Value& value) {
     const bool is_unit = same_name(value.unit.text, "MOD") || same_name(value.unit.text, "DIV");
     if (!is_unit || at_symbol(";")) return false;
     report_.add("E045", value.unit.span, fmt::format("there is no {} here", upper(value.unit.text)),
-                "values are reckoned with + - * / and parentheses");
+                "values are calculated with + - * / and parentheses");
     value.unit = {};
     ast::Value dropped;
     parse_factor(dropped);

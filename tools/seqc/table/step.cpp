@@ -4,14 +4,13 @@
 #include <unordered_map>
 #include <utility>
 
+#include "table/terms.h"
+
 namespace nplc::table {
 namespace {
 
 using sequencer::Pending;
 using sequencer::TermView;
-
-constexpr unsigned kTimerZero = 8;
-constexpr unsigned kCounterZero = 9;
 
 /// What the true terms of a scan leave behind.
 struct Done {
@@ -141,13 +140,6 @@ std::vector<TermView> terms_of(std::span<const std::uint8_t> table) {
 std::size_t length_of(std::span<const std::uint8_t> table) {
     const std::size_t length = (terms_of(table).size() + 1) * sequencer::kTermBytes;
     return length <= table.size() ? length : 0;
-}
-
-void set_preset(std::span<std::uint8_t, sequencer::kTermBytes> term, std::uint16_t preset) {
-    sequencer::Term decoded = sequencer::decode(term);
-    decoded.fast.preset = preset;
-    const sequencer::TermBytes bytes = sequencer::encode(decoded);
-    std::copy(bytes.begin(), bytes.end(), term.begin());
 }
 
 }  // namespace nplc::table

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
-#include "protocol/fastmac.h"
 #include "protocol/flexmac.h"
+#include "table/commands.h"
 
 namespace nplc::seqc {
 namespace {
 
-namespace fastmac = protocol::fastmac;
 namespace flexmac = protocol::flexmac;
-using fastmac::Number;
 
 constexpr std::uint32_t kEqualStatusBytes = 2;
 constexpr std::uint32_t kPauseBeforeFlexMac = 3;
@@ -23,7 +21,7 @@ class Line {
 
     void send(const sequencer::MotorOrder& order) {
         if (in_flexmac_ && !order.is_register_write) leave_flexmac();
-        if (!in_flexmac_ && order.is_register_write) command(fastmac::command_byte(Number::use_flexmac));
+        if (!in_flexmac_ && order.is_register_write) command(table::use_flexmac());
         if (order.is_register_write) {
             flexmac_message({.longword = order.longword,
                              .level = flexmac::Level::reg,
@@ -44,9 +42,10 @@ class Line {
   private:
     void command(std::uint8_t byte) {
         message(now_, safe_ ? 2 : 1);
-        if (byte == fastmac::command_byte(Number::use_flexmac)) in_flexmac_ = true;
-        if (byte == fastmac::command_byte(Number::safe_communication)) safe_ = true;
-        if (byte == fastmac::command_byte(Number::rapid_communication)) safe_ = false;
+        const table::LineChange change = table::line_change_of(byte);
+        if (change == table::LineChange::flexmac) in_flexmac_ = true;
+        if (change == table::LineChange::safe) safe_ = true;
+        if (change == table::LineChange::rapid) safe_ = false;
     }
 
     void leave_flexmac() {

@@ -43,8 +43,6 @@ struct Reaction {
     Truth when;
     table::Outcome outcome;          ///< `outputs` only if the following step does not fix them
     std::uint8_t outputs_shown = 0;  ///< the bits of `outcome.outputs` that are not fixed
-
-    bool only_on_error() const { return (when & ~truth_of_bit(kErrorBit)).none(); }
 };
 
 /// In the order of the cases. An action both with and without ERROR is one reaction if it has the same

@@ -49,7 +49,6 @@ class Sources {
         return std::string_view(text_).substr(file.offset, file.length);
     }
     const SourceFile& file_at(std::uint32_t offset) const;
-    bool is_one_file() const { return files_.size() == 1; }
     /// Whether the program includes the first file, or is it.
     bool has_first() const { return has_first_; }
 

@@ -72,7 +72,4 @@ std::vector<sequencer::TermView> terms_of(std::span<const std::uint8_t> table);
 /// In bytes, with the end term; 0 if there is none.
 std::size_t length_of(std::span<const std::uint8_t> table);
 
-/// For a term in FastMAC format.
-void set_preset(std::span<std::uint8_t, sequencer::kTermBytes> term, std::uint16_t preset);
-
 }  // namespace nplc::table
