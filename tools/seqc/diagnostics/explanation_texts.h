@@ -9,6 +9,6 @@ namespace nplc::seqc {
 extern const std::span<const std::string_view> kExplanationTexts;
 
 /// LANGUAGE.md, embedded likewise.
-extern const std::string_view kReference;
+std::string_view language_reference();
 
 }  // namespace nplc::seqc

@@ -57,7 +57,7 @@ std::vector<Paragraph> passages_about(std::string_view word) {
     };
     std::vector<Found> found;
     std::string_view section;
-    for (std::string_view rest = kReference; !rest.empty();) {
+    for (std::string_view rest = language_reference(); !rest.empty();) {
         const std::string_view block = take_block(rest);
         if (block.starts_with("#")) section = block.substr(block.find_first_not_of("# "));
         const bool is_rule = block.starts_with("    ") && section.ends_with("Grammar");
@@ -77,7 +77,7 @@ std::vector<Paragraph> passages_about(std::string_view word) {
 std::vector<std::string_view> reference_words() {
     constexpr std::size_t kShortest = 3;
     std::vector<std::string_view> words;
-    const std::string_view text = kReference;
+    const std::string_view text = language_reference();
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = at;
         bool is_small = false;
