@@ -9,7 +9,7 @@
 #include "registers/details.h"
 #include "registers/midi.h"
 #include "registers/scale.h"
-#include "spelling/edit_distance.h"
+#include "text/edit_distance.h"
 
 namespace nplc::sim {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "parser.h"
 #include "registers/family.h"
-#include "spelling/edit_distance.h"
+#include "text/edit_distance.h"
 
 namespace nplc::sim {
 namespace {

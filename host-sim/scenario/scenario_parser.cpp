@@ -5,7 +5,7 @@
 
 #include "parser.h"
 #include "sim/scenario.h"
-#include "spelling/edit_distance.h"
+#include "text/edit_distance.h"
 
 namespace nplc::sim {
 namespace {

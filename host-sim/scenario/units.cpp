@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "sim/text.h"
-#include "spelling/edit_distance.h"
+#include "text/edit_distance.h"
 
 namespace nplc::sim {
 namespace {

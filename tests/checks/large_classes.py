@@ -100,13 +100,13 @@ CLASSES = {
     "tools/macreg/ui/include/macreg/ui_model.h:UiModel": Large(
         "all that a screen shows, one getter each; a key changes several of them", methods=48, members=26
     ),
-    "tools/seqc/semantics/scope.h:Scope": Large(
+    "tools/sequence/compiler/scope.h:Scope": Large(
         "steps, registers, values and set-points are declared in terms of each other", methods=74, members=29
     ),
-    "tools/seqc/syntax/parser.h:Parser": Large(
+    "tools/sequence/language/parser.h:Parser": Large(
         "a program is parsed by mutual recursion over one cursor", methods=168, members=24
     ),
-    "tools/verify/explorer.h:Explorer": Large(
+    "tools/sequence/analysis/explorer.h:Explorer": Large(
         "the store of the states and the walk that fills it; the innermost loops use both", methods=67, members=29
     ),
 }

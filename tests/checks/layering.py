@@ -77,7 +77,7 @@ MODULES = [
     Module("firmware/faces/mqtt", "mqtt", ("base", "broker", "registers", "faces", "set_points", "causes", "deployment", "orders", "hal_linux"), os=True),
     Module("firmware/faces/metrics", "metrics", ("base", "registers", "faces", "set_points", "causes", "hal_linux"), os=True),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers", "set_points"), os=True),
-    Module("host-sim/scenario", "sim", ("base", "registers", "set_points", "spelling")),
+    Module("host-sim/scenario", "sim", ("base", "registers", "set_points", "text")),
     Module("host-sim/axis", "sim", ("host", "plant_file", "registers")),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(
@@ -100,11 +100,10 @@ MODULES = [
     ),
     Module("host-sim/fmu", "sim", ANY, os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
-    Module("tools/spelling", "spelling", ()),
+    Module("tools/text", "text", ()),
     Module("tools/whole_files", "whole_files", ("host",)),
     Module("tools/intel_hex", "intel_hex", ("host",)),
-    Module("tools/proof", "proof", ("digest",)),
-    Module("tools/arguments", "arguments", ("spelling",)),
+    Module("tools/arguments", "arguments", ("text",)),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
     Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
     Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client", "registers")),
@@ -115,29 +114,46 @@ MODULES = [
         "tools/nanoctl",
         "nanoctl",
         ("arguments", "base", "causes", "sequencer", "protocol", "registers", "store", "seqc", "host", "intel_hex",
-         "mactalk_client", "command_line", "digest", "proof", "set_points", "signature", "spelling", "update", "uploads", "whole_files"),
+         "mactalk_client", "command_line", "digest", "proof", "set_points", "signature", "text", "update", "uploads", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
-    # The one model of what a table does: seqc and the verifier read it, neither reads a term's bytes itself.
-    Module("tools/seqc/table", "table", ("base", "sequencer", "protocol", "registers")),
-    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers", "table")),
-    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "dap", "digest", "intel_hex",
-                                    "proof", "rehearsal", "rpc", "set_points", "spelling", "table", "verify", "whole_files")),
-    Module("tools/seqc/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "spelling",
-                                      "whole_files")),
+    # The language and what becomes of it, in the order of the way from a source line to a table's bytes. seqc/ is what others include.
+    Module("tools/sequence/diagnostics", "diagnostics", ("seqc", "host")),
+    Module("tools/sequence/language", "language", ("seqc", "diagnostics", "host", "text", "whole_files")),
+    Module("tools/sequence/symbols", "symbols", ("seqc", "language", "table", "base", "host", "protocol", "registers", "sequencer", "set_points")),
+    # The one model of a step in every case: nobody else reads a term's bytes.
+    Module("tools/sequence/table", "table", ("base", "sequencer", "protocol", "registers")),
+    Module("tools/sequence/analysis", "analysis", ("base", "sequencer", "protocol", "registers", "table")),
+    Module("tools/sequence/compiler", "compiler",
+           ("seqc", "language", "symbols", "diagnostics", "table", "analysis", "protocol", "registers", "sequencer", "set_points")),
+    Module("tools/sequence/lowering", "lowering", ("compiler", "diagnostics", "table", "sequencer")),
+    Module("tools/sequence/report", "report",
+           ("seqc", "language", "symbols", "diagnostics", "table", "compiler", "lowering", "analysis", "base", "host", "protocol", "registers", "sequencer",
+            "set_points")),
+    Module("tools/sequence/format", "format", ("seqc", "language", "symbols", "registers")),
+    Module("tools/sequence/proof", "proof", ("digest",)),
+    Module("tools/sequence/editing", "editing",
+           ("seqc", "language", "symbols", "diagnostics", "table", "compiler", "report", "registers", "sequencer")),
+    Module("tools/sequence/rpc", "rpc", ()),
     # The one door from seqc to the simulator: scenarios are read and programs rehearsed by what nanoplc-sim uses.
-    Module("tools/seqc/rpc", "rpc", ()),
-    Module("tools/seqc/rehearsal", "rehearsal", ("base", "plant_file", "registers", "seqc", "sequencer", "set_points", "sim")),
+    Module("tools/sequence/rehearsal", "rehearsal", ("base", "plant_file", "registers", "seqc", "sequencer", "set_points", "sim")),
+    Module("tools/sequence/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "text",
+                                          "whole_files")),
+    Module("tools/sequence/lsp", "lsp", ("seqc", "language", "editing", "report", "analysis", "rehearsal", "rpc", "host", "sequencer", "whole_files")),
+    Module("tools/sequence/cli", "cli",
+           ("seqc", "language", "symbols", "diagnostics", "table", "compiler", "report", "analysis", "proof", "dap", "lsp", "arguments", "digest", "host", "intel_hex",
+            "registers", "sequencer", "set_points", "whole_files")),
+    Module("tools/sequence", "seqc", ("language", "symbols", "compiler", "lowering", "analysis", "registers", "set_points")),
     Module(
         "tools/macreg",
         "macreg",
         ("arguments", "base", "causes", "plant_file", "protocol", "registers", "host", "mactalk_client", "midi_client",
-         "command_line", "spelling", "whole_files"),
+         "command_line", "text", "whole_files"),
     ),
     Module("tools/macreg/fit", "macreg", ("plant_file", "registers")),
     # The one door from macreg to the simulator.
     Module("tools/macreg/prediction", "macreg", ("plant_file", "registers", "sim")),
-    Module("tools/macreg/ui", "macreg", ("base", "causes", "protocol", "registers", "mactalk_client", "spelling"), os=True),
+    Module("tools/macreg/ui", "macreg", ("base", "causes", "protocol", "registers", "mactalk_client", "text"), os=True),
     Module("tools/cmake", None, ()),
     Module("tests", None, ANY, os=True),
     Module("tests/bench", None, ANY, os=True, clock=True),
@@ -182,11 +198,11 @@ CLOCK = re.compile(
     r"\b(?:\w+_clock\s*::\s*now|(?:std\s*::\s*)?chrono\s*::\s*\w+_clock|(?:steady|system|high_resolution)_clock"
     r"|clock_gettime|gettimeofday|timespec_get|std\s*::\s*time\s*\()"
 )
-# Only tools/seqc/table says what the bits of a command or a term mean; the simulated motor has its own idea of commands.
-BITS_ARE_FOR = "tools/seqc/table/"
+# Only tools/sequence/table says what the bits of a command or a term mean; the simulated motor has its own idea of commands.
+BITS_ARE_FOR = "tools/sequence/table/"
 BITS = (
-    (("tools/seqc/", "tools/verify/"), re.compile(r"\bfastmac::|protocol/fastmac\.h"), "table/commands.h"),
-    (("tools/seqc/", "tools/verify/", "host-sim/nanoplc_sim/"), re.compile(r"\b(?:bytes|term|table)_?\[(?!\")"), "table/terms.h"),
+    (("tools/sequence/",), re.compile(r"\bfastmac::|protocol/fastmac\.h"), "table/commands.h"),
+    (("tools/sequence/", "host-sim/nanoplc_sim/"), re.compile(r"\b(?:bytes|term|table)_?\[(?!\")"), "table/terms.h"),
 )
 
 
@@ -231,7 +247,7 @@ class Checker:
 
     def check_include(self, path, module, line, bracket, header):
         prefix = header.split("/")[0] if "/" in header else None
-        if prefix in {m.prefix for m in MODULES if m.prefix}:
+        if prefix in {m.prefix for m in MODULES if m.prefix} and not self.is_private(path, module, header):
             self.check_own(path, module, line, header, prefix)
         elif bracket == '"':
             if module.may != ANY and not self.is_private(path, module, header):

@@ -47,11 +47,11 @@ class Layering(unittest.TestCase):
             ("firmware/gateway/a.cpp", "sim/clock.h"),
             ("host-sim/a.cpp", "motor/motor.h"),
             ("host-sim/a.cpp", "sequencer/term.h"),
-            ("tools/seqc/a.cpp", "motor/motor.h"),
-            ("tools/seqc/a.cpp", "ports/serial.h"),
-            ("tools/seqc/main.cpp", "gateway/gateway.h"),
+            ("tools/sequence/a.cpp", "motor/motor.h"),
+            ("tools/sequence/a.cpp", "ports/serial.h"),
+            ("tools/sequence/main.cpp", "gateway/gateway.h"),
             ("tools/macreg/a.cpp", "seqc/compiler.h"),
-            ("tools/seqc/a.cpp", "hal_linux/file_storage.h"),
+            ("tools/sequence/a.cpp", "hal_linux/file_storage.h"),
             ("tools/mactalk_client/a.cpp", "hal_windows/a.h"),
             ("hal/host/a.cpp", "hal_linux/byte_server.h"),
             ("tools/arguments/a.cpp", "base/result.h"),
@@ -73,7 +73,7 @@ class Layering(unittest.TestCase):
             ("host-sim/nanoplc_sim/main.cpp", "gateway/gateway.h"),
             ("host-sim/sim_main.cpp", "seqc/compiler.h"),
             ("host-sim/board/board.cpp", "gateway/gateway.h"),
-            ("tools/seqc/a.cpp", "registers/mac.h"),
+            ("tools/sequence/a.cpp", "registers/mac.h"),
             ("tools/macreg/main.cpp", "host/terminal.h"),
             ("tests/e2e/a.cpp", "sim/motor.h"),
         ]:
@@ -83,7 +83,7 @@ class Layering(unittest.TestCase):
         headers = ["unistd.h", "termios.h", "sys/socket.h", "linux/can.h", "gpiod.h", "stm32f1xx.h", "fcntl.h"]
         for path in [
             "sequencer/a.cpp", "hal/ports/include/ports/a.h", "hal/host/include/host/a.h", "firmware/gateway/a.cpp",
-            "tools/seqc/a.cpp", "tools/macreg/cli/a.cpp",
+            "tools/sequence/a.cpp", "tools/macreg/cli/a.cpp",
         ]:
             for header in headers:
                 self.refused("OS or vendor header", 1, path, f"#include <{header}>\n")
@@ -95,12 +95,12 @@ class Layering(unittest.TestCase):
         for path in ["hal/base/include/base/a.h", "hal/mcu/a.cpp", "sequencer/a.cpp", "firmware/motor/a.cpp"]:
             for header in [*headers, "fmt/core.h"]:
                 self.refused("heap or I/O", 1, path, f"#include <{header}>\n")
-        for path in ["hal/linux/a.cpp", "host-sim/a.cpp", "tools/seqc/a.cpp"]:
+        for path in ["hal/linux/a.cpp", "host-sim/a.cpp", "tools/sequence/a.cpp"]:
             self.accepted(path, "#include <vector>\n#include <fmt/core.h>\n")
         self.accepted("sequencer/a.cpp", "#include <array>\n#include <cstdint>\n#include <span>\n")
 
     def test_a_library_that_one_folder_hides(self):
-        for path in ["tools/seqc/cli/main.cpp", "tools/command_line/a.h", "host-sim/macsim/a.cpp", "tests/seqc/a.cpp"]:
+        for path in ["tools/sequence/cli/main.cpp", "tools/command_line/a.h", "host-sim/macsim/a.cpp", "tests/seqc/a.cpp"]:
             self.refused("hidden library", 1, path, "#include <CLI/CLI.hpp>\n")
         self.accepted("tools/arguments/arguments.cpp", "#include <CLI/CLI.hpp>\n")
 
@@ -111,19 +111,19 @@ class Layering(unittest.TestCase):
             "clock_gettime(CLOCK_MONOTONIC, &t);",
             "auto t = std::time(nullptr);",
         ]
-        for path in ["sequencer/a.cpp", "firmware/gateway/a.cpp", "host-sim/a.cpp", "tools/seqc/a.cpp", "tests/e2e/a.cpp"]:
+        for path in ["sequencer/a.cpp", "firmware/gateway/a.cpp", "host-sim/a.cpp", "tools/sequence/a.cpp", "tests/e2e/a.cpp"]:
             for read in reads:
                 self.refused("clock", 2, path, f"\n{read}\n")
         for path in ["hal/linux/clock.cpp", "hal/mcu/clock.cpp", "firmware/boards/pi/main.cpp", "host-sim/sim_main.cpp"]:
             self.accepted(path, reads[0] + "\n")
 
     def test_bits_of_commands_and_terms(self):
-        self.refused("bits", 1, "tools/seqc/semantics/a.cpp", '#include "protocol/fastmac.h"\n')
-        self.refused("bits", 2, "tools/verify/a.cpp", "\nint n = int(fastmac::Number::home);\n")
-        self.refused("bits", 1, "tools/seqc/listing/a.cpp", "int next = term[3] & 63;\n")
+        self.refused("bits", 1, "tools/sequence/compiler/a.cpp", '#include "protocol/fastmac.h"\n')
+        self.refused("bits", 2, "tools/sequence/analysis/a.cpp", "\nint n = int(fastmac::Number::home);\n")
+        self.refused("bits", 1, "tools/sequence/report/a.cpp", "int next = term[3] & 63;\n")
         self.refused("bits", 1, "host-sim/nanoplc_sim/a.cpp", "table[at + 6] = 1;\n")
-        self.accepted("tools/seqc/table/a.cpp", '#include "protocol/fastmac.h"\nint next = term[3] & 63;\n')
-        self.accepted("tools/seqc/symbols/a.cpp", 'int rows = table["rows"];  // term[3]\n')
+        self.accepted("tools/sequence/table/a.cpp", '#include "protocol/fastmac.h"\nint next = term[3] & 63;\n')
+        self.accepted("tools/sequence/symbols/a.cpp", 'int rows = table["rows"];  // term[3]\n')
         self.accepted("host-sim/nanoplc_sim/a.cpp", '#include "protocol/fastmac.h"\n')
 
     def test_a_header_nobody_owns(self):

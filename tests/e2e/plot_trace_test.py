@@ -20,7 +20,7 @@ SEED = 5
 
 
 def example(name):
-    return os.path.join(ROOT, "tools/seqc/examples", name)
+    return os.path.join(ROOT, "tools/sequence/examples", name)
 
 
 class PlotTrace(FolderCase):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What README.md and tools/seqc/README.md print: programs work as printed, and programs print what is printed there.
+"""What README.md and tools/sequence/README.md print: programs work as printed, and programs print what is printed there.
 
 usage: readme_test.py SEQC NANOPLC_SIM ROOT
 """
@@ -14,7 +14,7 @@ import unittest
 from folder_case import FolderCase
 
 SEQC = NANOPLC_SIM = ROOT = ""
-EXAMPLE = "tools/seqc/examples/pick_and_place"
+EXAMPLE = "tools/sequence/examples/pick_and_place"
 
 
 def read(path):
@@ -35,7 +35,7 @@ def block_after(text, words):
 class Readme(FolderCase):
     def setUp(self):
         super().setUp()
-        self.text = read("tools/seqc/README.md")
+        self.text = read("tools/sequence/README.md")
 
     def run_program(self, *command):
         return subprocess.run(command, capture_output=True, text=True, check=False, cwd=self.folder.name)
@@ -72,7 +72,7 @@ class FrontPage(Readme):
         self.front = read("README.md")
 
     def test_the_part_of_the_example(self):
-        self.assertIn(block_after(self.front, "A part of `tools/seqc/examples/pick_and_place.seq`:"),
+        self.assertIn(block_after(self.front, "A part of `tools/sequence/examples/pick_and_place.seq`:"),
                       read(EXAMPLE + ".seq"))
 
     def test_the_timeline(self):
@@ -114,13 +114,13 @@ class FrontPage(Readme):
         self.assertFalse(os.path.exists(os.path.join(self.folder.name, "no.svg")))
 
     def test_the_drawing_is_of_this_table(self):
-        self.run_program(SEQC, "build", os.path.join(ROOT, "tools/seqc/examples/indexing_table.seq"), "-o", "t.bin")
+        self.run_program(SEQC, "build", os.path.join(ROOT, "tools/sequence/examples/indexing_table.seq"), "-o", "t.bin")
         with open(os.path.join(self.folder.name, "t.sym"), encoding="utf-8") as file:
             crc = json.load(file)["table"]["crc32"]
-        self.assertIn(crc.upper(), read("tools/seqc/examples/indexing_table.svg").upper())
+        self.assertIn(crc.upper(), read("tools/sequence/examples/indexing_table.svg").upper())
 
     def test_how_many_examples_there_are(self):
-        names = [n for n in os.listdir(os.path.join(ROOT, "tools/seqc/examples")) if n.endswith(".seq")]
+        names = [n for n in os.listdir(os.path.join(ROOT, "tools/sequence/examples")) if n.endswith(".seq")]
         number = re.search(r"([\w-]+) example machines", self.front).group(1)
         words = ("fifteen sixteen seventeen eighteen nineteen twenty twenty-one twenty-two twenty-three twenty-four "
                  "twenty-five twenty-six twenty-seven twenty-eight twenty-nine thirty").split()
@@ -132,7 +132,7 @@ class FrontPage(Readme):
 class Outputs(Readme):
     def test_codes_that_documents_name_can_be_explained(self):
         listed = {line.split("  ", 1)[0] for line in self.run_program(SEQC, "explain").stdout.strip().split("\n")}
-        named = set(re.findall(r"\b[EW]\d{3}\b", self.text + read("tools/seqc/LANGUAGE.md")))
+        named = set(re.findall(r"\b[EW]\d{3}\b", self.text + read("tools/sequence/LANGUAGE.md")))
         self.assertGreater(len(named), 20)
         self.assertLessEqual(named, listed)
 

@@ -82,7 +82,7 @@ class Fmu3 {
 /// fmu_file(), packed once.
 const std::string& packed(const FmuOptions& options);
 
-/// Of this program in tools/seqc/examples; without one the motor alone.
+/// Of this program in tools/sequence/examples; without one the motor alone.
 FmuOptions options_of(const std::string& example, registers::Model motor = registers::Model::mac140);
 
 }  // namespace nplc::sim::fmu

@@ -41,7 +41,7 @@ async function simulateCutter(t, ...options) {
   const folder = mkdtempSync(join(tmpdir(), "cutter"));
   t.after(() => rmSync(folder, { recursive: true }));
   const port = join(folder, "port");
-  const said = await simulateProgram(t, "tools/seqc/examples/cut_to_length.seq", "--mactalk", `unix:${port}`, ...options);
+  const said = await simulateProgram(t, "tools/sequence/examples/cut_to_length.seq", "--mactalk", `unix:${port}`, ...options);
   const nanoctl = (...words) => execFileSync(join(programs, "nanoctl"), ["--port", `unix:${port}`, ...words]);
   nanoctl("stop");
   nanoctl("set-points", "set", "Length=25.5mm");

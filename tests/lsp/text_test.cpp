@@ -1,4 +1,4 @@
-#include "analysis/text.h"
+#include "editing/text.h"
 
 #include <gtest/gtest.h>
 

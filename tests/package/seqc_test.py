@@ -102,7 +102,7 @@ class Package(unittest.TestCase):
         document = bill.read(path)
         self.assertEqual(bill.related(document, "DYNAMIC_LINK"), deb.needed(DEB))
         self.assertLess({"vscode-languageclient", "vscode-jsonrpc", "semver", "minimatch"}, bill.related(document, "CONTAINS"))
-        with open(os.path.join(ROOT, "tools/seqc/editors/vscode/package.json"), encoding="utf-8") as file:
+        with open(os.path.join(ROOT, "tools/sequence/editors/vscode/package.json"), encoding="utf-8") as file:
             tools = set(json.load(file)["devDependencies"]) - {"vscode-languageserver-protocol"}
         self.assertEqual(bill.related(document, "CONTAINS") & tools, set())
 

@@ -32,7 +32,7 @@ const screens = [
 
 for (const { name, ...options } of screens) {
   test(`${name}: axe-core finds nothing serious, nothing is wider than the screen`, async () => {
-    const machine = await simulator("tools/seqc/examples/pick_and_place.seq", { cwd: root, scenario: "every 4 s pulse Start 50 ms\n" });
+    const machine = await simulator("tools/sequence/examples/pick_and_place.seq", { cwd: root, scenario: "every 4 s pulse Start 50 ms\n" });
     const page = await openPage(machine.url, { ...options, reducedMotion: "reduce" });
     await painted(page);
     const width = () => page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
@@ -72,7 +72,7 @@ for (const { name, ...options } of screens) {
 
 for (const { name, ...options } of screens) {
   test(`${name}: set-points and recipes, watching, operating and with their dialogs`, async () => {
-    const machine = await simulator("tools/seqc/examples/cut_to_length.seq", { cwd: root });
+    const machine = await simulator("tools/sequence/examples/cut_to_length.seq", { cwd: root });
     const page = await openPage(machine.url, { ...options, reducedMotion: "reduce" });
     await painted(page);
     await page.waitForSelector("#set-points tr");

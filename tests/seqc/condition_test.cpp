@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "lowering/cover.h"
+#include "report/table_text.h"
 #include "support.h"
-#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {

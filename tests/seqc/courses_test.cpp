@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/checks.h"
 #include "cli_support.h"
 #include "diagnostics/codes.h"
 #include "diagnostics/explanations.h"
-#include "verify/checks.h"
 
 namespace nplc::seqc {
 namespace {

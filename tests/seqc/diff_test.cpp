@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "random_table.h"
+#include "report/table_diff.h"
 #include "support.h"
-#include "views/table_diff.h"
 
 namespace nplc::seqc {
 namespace {

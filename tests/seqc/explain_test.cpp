@@ -7,8 +7,8 @@
 #include "cli_support.h"
 #include "diagnostics/explanations.h"
 #include "diagnostics/reference.h"
-#include "semantics/commands.h"
-#include "syntax/parser.h"
+#include "language/parser.h"
+#include "symbols/commands.h"
 
 namespace nplc::seqc {
 namespace {

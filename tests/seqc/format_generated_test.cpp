@@ -5,10 +5,10 @@
 #include <set>
 
 #include "case_file.h"
+#include "language/lexer.h"
+#include "language/parser.h"
 #include "seqc/format.h"
 #include "support.h"
-#include "syntax/lexer.h"
-#include "syntax/parser.h"
 
 /// The tokens of known programs in layouts made up at random.
 namespace nplc::seqc {

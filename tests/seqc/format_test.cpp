@@ -7,8 +7,8 @@
 
 #include "case_file.h"
 #include "format/layout.h"
+#include "language/lexer.h"
 #include "seqc/seqc.h"
-#include "syntax/lexer.h"
 
 namespace nplc::seqc {
 namespace {

@@ -1,5 +1,5 @@
 // What a drawing shows, and its parts; the places in whole drawings are checked by graph_test.py.
-#include "views/graph.h"
+#include "report/graph/graph.h"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 #include <set>
 
 #include "case_file.h"
+#include "report/graph/graph_columns.h"
+#include "report/graph/graph_font.h"
+#include "report/graph/graph_layout.h"
+#include "report/graph/graph_model.h"
+#include "report/graph/graph_svg.h"
+#include "report/graph/graph_text.h"
+#include "report/graph/graph_tracks.h"
 #include "support.h"
-#include "views/graph_columns.h"
-#include "views/graph_font.h"
-#include "views/graph_layout.h"
-#include "views/graph_model.h"
-#include "views/graph_svg.h"
-#include "views/graph_text.h"
-#include "views/graph_tracks.h"
 
 namespace nplc::seqc {
 namespace {

@@ -1,6 +1,6 @@
 // How long a scan's orders keep the line: by arithmetic from the driver's rules (firmware/motor/README.md),
 // and against the driver and the motor on the simulated board.
-#include "views/line_time.h"
+#include "report/line_time.h"
 
 #include <gtest/gtest.h>
 

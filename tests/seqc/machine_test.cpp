@@ -1,5 +1,5 @@
 // A table seen whole: what its steps do, which are reached, which outputs they have, what entering them does.
-#include "views/machine.h"
+#include "report/machine.h"
 
 #include <gtest/gtest.h>
 

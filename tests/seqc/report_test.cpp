@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/table_report.h"
 #include "support.h"
-#include "views/table_report.h"
 
 namespace nplc::seqc {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/truth.h"
 #include "random_table.h"
-#include "semantics/truth.h"
 #include "sequencer/engine.h"
 #include "table/orders.h"
 #include "table/step.h"

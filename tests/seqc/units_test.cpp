@@ -1,4 +1,4 @@
-#include "semantics/units.h"
+#include "symbols/units.h"
 
 #include <gtest/gtest.h>
 

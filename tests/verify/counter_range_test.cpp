@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/verify.h"
 #include "seqc/properties.h"
-#include "verify/verify.h"
 
 namespace nplc::verify {
 namespace {

@@ -1,5 +1,5 @@
 // What is written for foreign checkers, held against the manual's own example and bytes written by hand.
-#include "verify/emit.h"
+#include "analysis/emit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // A preset that stands for any time of a range: what is proved holds for each of them.
 #include <gtest/gtest.h>
 
+#include "analysis/verify.h"
 #include "seqc/properties.h"
-#include "verify/verify.h"
 
 namespace nplc::verify {
 namespace {

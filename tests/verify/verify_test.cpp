@@ -1,4 +1,4 @@
-#include "verify/verify.h"
+#include "analysis/verify.h"
 
 #include <gtest/gtest.h>
 

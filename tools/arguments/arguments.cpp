@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "arguments/commit.h"
-#include "spelling/edit_distance.h"
+#include "text/edit_distance.h"
 
 namespace nplc::arguments {
 namespace {

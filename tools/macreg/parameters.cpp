@@ -8,7 +8,7 @@
 
 #include "macreg/change.h"
 #include "macreg/values.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg {
 

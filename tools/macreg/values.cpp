@@ -9,8 +9,8 @@
 #include "macreg/motor.h"
 #include "registers/layout.h"
 #include "registers/scale.h"
-#include "spelling/edit_distance.h"
-#include "spelling/text.h"
+#include "text/edit_distance.h"
+#include "text/text.h"
 
 namespace nplc::macreg {
 

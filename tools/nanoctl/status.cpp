@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "spelling/edit_distance.h"
-#include "spelling/text.h"
+#include "text/edit_distance.h"
+#include "text/text.h"
 
 namespace nplc::nanoctl {
 

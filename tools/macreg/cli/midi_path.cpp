@@ -8,7 +8,7 @@
 #include "macreg/midi/path_file.h"
 #include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/csv_row.h"
 #include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg::midi {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "registers/midi_scale.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg::midi {
 

@@ -12,7 +12,7 @@
 #include "registers/details.h"
 #include "registers/layout.h"
 #include "registers/scale.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg {
 

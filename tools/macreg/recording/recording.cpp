@@ -10,7 +10,7 @@
 #include "base/csv_row.h"
 #include "macreg/values.h"
 #include "registers/convert.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg {
 namespace {

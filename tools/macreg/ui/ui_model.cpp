@@ -8,7 +8,7 @@
 #include "macreg/values.h"
 #include "registers/convert.h"
 #include "registers/layout.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::macreg {
 

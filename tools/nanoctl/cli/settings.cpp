@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/session.h"
-#include "spelling/text.h"
+#include "text/text.h"
 
 namespace nplc::nanoctl::cli {
 namespace {

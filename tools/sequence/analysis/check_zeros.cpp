@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+#include "analysis/story.h"
+#include "findings.h"
+#include "walk.h"
+
+namespace nplc::verify {
+namespace {
+
+/// The relation of a scan of a group to the timer's zero, or to the counter's.
+struct Use {
+    ImageSet decided;     ///< images with which the zero decides the scan's effect
+    bool sets = false;    ///< the timer or the counter
+    bool leaves = false;  ///< the step
+};
+
+std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity, bool timer) {
+    std::vector<Use> uses;
+    for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
+        for (unsigned zeros = 0; zeros < 4; ++zeros) {
+            const bool timer_zero = (zeros & 1U) != 0;
+            const bool counter_zero = (zeros & 2U) != 0;
+            for (const Group& group : machine.groups(step, timer_zero, counter_zero)) {
+                Use& use = uses.emplace_back();
+                use.sets = timer ? group.outcome.timer != 0 : group.outcome.sets_counter();
+                use.leaves = group.outcome.next != step;
+                if (timer ? timer_zero : counter_zero) {
+                    use.decided = group.images & (timer ? sensitivity.to_timer(step, counter_zero)
+                                                        : sensitivity.to_counter(step, timer_zero));
+                }
+            }
+        }
+    }
+    return uses;
+}
+
+/// V007: a zero that a step waits for although it was never set, or has already been used by another step.
+std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
+    const Explorer& explorer = subject.explorer;
+    const std::vector<Use> uses = uses_of(explorer.machine(), sensitivity, timer);
+    std::vector<bool> makes_stale;
+    for (const Use& use : uses) makes_stale.push_back(use.leaves && !use.sets && use.decided.any());
+    // Not set: as at power-up, and after a scan in which its zero led to another step
+    Walk walk(explorer, subject.courses.excluded());
+    walk.begin_at_power_up(0);
+    for (const Explorer::Edge& edge : explorer.edges()) {
+        if (makes_stale[edge.group])
+            walk.begin_with(edge, uses[edge.group].decided & explorer.images_of(edge), 0);
+    }
+    std::vector<Finding> findings;
+    std::array<bool, 63> told{};
+    walk.all([&](const Walk::Scan& scan) {
+        const Use& use = uses[scan.edge.group];
+        if (!use.sets) scan.go_on(0);
+        if (use.decided.none()) return;
+        const std::uint8_t step = explorer.place(scan.edge.from).step;
+        const ImageSet images = use.decided & scan.images();
+        if (told[step] || images.none()) return;
+        told[step] = true;
+        findings.push_back(
+            {"V007", step,
+             fmt::format("step {} waits for {}.Q, and the {} was not set since power-up or since it last "
+                         "led to another step: it goes on at once",
+                         step_name(subject.names, step), timer ? "TIMER" : "COUNTER",
+                         timer ? "timer" : "counter"),
+             scan.course(images)});
+    });
+    return findings;
+}
+
+/// Steps that a timer at zero leads to where a running one does not; kNoSwitch: it stays, and does something.
+std::uint64_t led_to(const Machine& machine, const Sensitivity& sensitivity, std::uint8_t step) {
+    std::uint64_t steps = 0;
+    for (const bool counter_zero : {false, true}) {
+        for (const Group& group : machine.groups(step, true, counter_zero)) {
+            const std::uint8_t to = group.outcome.next == step ? sequencer::kNoSwitch : group.outcome.next;
+            if ((group.images & sensitivity.to_timer(step, counter_zero)).any())
+                steps |= std::uint64_t{1} << to;
+        }
+    }
+    return steps;
+}
+
+/// V008: a timer that one step was to wait for and that another waits for while it still runs.
+class OtherPurpose {
+  public:
+    OtherPurpose(const Subject& subject, const Sensitivity& sensitivity)
+        : explorer_(subject.explorer), names_(subject.names), excluded_(subject.courses.excluded()) {
+        for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step)
+            leads_to_[step] = without_copies(led_to(explorer_.machine(), sensitivity, step));
+    }
+
+    std::vector<Finding> find() {
+        for (const Group& group : explorer_.machine().all_groups())
+            presets_.push_back(group.outcome.timer != 0);
+        users_.resize(explorer_.size());
+        Walk walk(explorer_, excluded_);
+        for (const Explorer::Edge& edge : explorer_.edges()) {
+            if (presets_[edge.group] && explorer_.place(edge.to).runs) walk.begin_with(edge, kUnused);
+        }
+        walk.all([&](const Walk::Scan& scan) { follow(scan); });
+        return std::move(findings_);
+    }
+
+  private:
+    /// A copy of a step counts as that step.
+    std::uint64_t without_copies(std::uint64_t steps) const {
+        std::uint64_t result = 0;
+        for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
+            if (((steps >> step) & 1U) != 0)
+                result |= std::uint64_t{1} << names_.copy_of[step].value_or(step);
+        }
+        return result;
+    }
+
+    void follow(const Walk::Scan& scan) {
+        const std::uint8_t step = explorer_.place(scan.edge.from).step;
+        Walk::Memory user = scan.memory;
+        if (leads_to_[step] != 0) {
+            if (user == kUnused) user = static_cast<Walk::Memory>(kFirstUser + step);
+            const auto first = static_cast<std::uint8_t>(user - kFirstUser);
+            if (leads_to_[first] != leads_to_[step] && !told_[step]) tell(scan, first, step);
+        }
+        const bool runs_on = !presets_[scan.edge.group] && explorer_.place(scan.edge.to).runs;
+        if (runs_on && is_new(scan.edge.to, user)) scan.go_on(user);
+    }
+
+    void tell(const Walk::Scan& scan, std::uint8_t first, std::uint8_t step) {
+        told_[step] = true;
+        findings_.push_back(
+            {"V008", step,
+             fmt::format("the timer that step {} was to wait for still runs in step {}, which "
+                         "goes elsewhere when it ends",
+                         step_name(names_, first), step_name(names_, step)),
+             scan.course(scan.images())});
+    }
+
+    /// Of all users that come to a node the first two with other purposes are enough: whatever a step leads
+    /// to, one of them wanted something else.
+    bool is_new(Explorer::Node node, Walk::Memory user) {
+        if (user == kUnused || excluded_ != nullptr) return true;
+        auto& [one, two] = users_[node];
+        const auto purpose = [&](Walk::Memory of) { return leads_to_[of - kFirstUser]; };
+        if (one == kUnused) {
+            one = user;
+            return true;
+        }
+        if (two != kUnused || purpose(one) == purpose(user)) return false;
+        two = user;
+        return true;
+    }
+
+    static constexpr Walk::Memory kUnused = 0;
+    static constexpr Walk::Memory kFirstUser = 1;
+
+    const Explorer& explorer_;
+    const Names& names_;
+    Excluded* excluded_;
+    std::array<std::uint64_t, 63> leads_to_{};
+    std::vector<bool> presets_;                       ///< by group
+    std::vector<std::array<Walk::Memory, 2>> users_;  ///< by node
+    std::array<bool, 63> told_{};
+    std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> check_zeros(const Subject& subject) {
+    const Sensitivity sensitivity(subject.explorer.machine());
+    std::vector<Finding> findings = find_stale(subject, sensitivity, true);
+    for (const Finding& finding : find_stale(subject, sensitivity, false)) findings.push_back(finding);
+    for (const Finding& finding : OtherPurpose(subject, sensitivity).find()) findings.push_back(finding);
+    return findings;
+}
+
+}  // namespace nplc::verify

@@ -1,0 +1,146 @@
+#include "cli/verify_courses.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "analysis/course_scenario.h"
+#include "analysis/story.h"
+#include "cli/common.h"
+#include "cli/course_steps.h"
+#include "cli/motor_lines.h"
+#include "host/paths.h"
+#include "host/process.h"
+#include "whole_files/whole_files.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+constexpr const char* kPlayer = "nanoplc-sim";
+
+/// Runs the player next to this program, else the one on the path.
+host::Ran run_player(const std::vector<std::string>& arguments, const std::string& scenario) {
+    const std::string folder = host::own_folder();
+    if (!folder.empty()) {
+        const std::string beside = host::name_of(host::path_of(folder) / kPlayer);
+        host::Ran ran = host::run_program(beside, arguments, scenario);
+        if (!ran.missing) return ran;
+    }
+    return host::run_program(kPlayer, arguments, scenario);
+}
+
+/// Played before it is written, in a separate program with the simulated gateway.
+Play play_scenario(const InputFile& program, const std::string& file, const std::string& text,
+                   const CourseSteps& steps, bool has_plant) {
+    std::vector<std::string> arguments = {"run", program.file, "--scenario", "/dev/stdin"};
+    if (!program.symbols.empty()) arguments.insert(arguments.end(), {"--symbols", program.symbols});
+    const host::Ran ran = run_player(arguments, text);
+    if (ran.missing)
+        return {file, Played::not_at_all, "nanoplc-sim was not found beside seqc or on the path"};
+    if (!ran.problem.empty()) return {file, Played::not_at_all, ran.problem};
+    if (ran.status == 0) return {file, Played::to_the_end, {}};
+    if (ran.status == 1) {
+        Deviation leaves = where_it_leaves(steps, steps_in_timeline(ran.output));
+        if (leaves.by_motor && !has_plant)
+            leaves.where += "; for hard stops, a load or a plant of the machine's there is --plant FILE";
+        return {file, Played::otherwise, std::move(leaves.where)};
+    }
+    return {file, Played::not_at_all,
+            fmt::format("nanoplc-sim refused it: {}", ran.errors.substr(0, ran.errors.find('\n')))};
+}
+
+/// A scenario with the result of its rehearsal.
+struct Rehearsed {
+    Play play;
+    std::string text;
+};
+
+/// With inputs that change before the scan that leaves a step and, if that leads elsewhere, after it.
+Rehearsed rehearsed(const verify::Result& result, const InputFile& program, const std::string& file,
+                    const verify::Names& names, const std::vector<std::string>& plant) {
+    const CourseSteps steps = steps_of(*result.course, names);
+    verify::ScenarioOptions how{.plant = plant};
+    std::string text = verify::scenario_of(result, names, how);
+    Play play = play_scenario(program, file, text, steps, !plant.empty());
+    if (play.played != Played::otherwise) return {std::move(play), std::move(text)};
+    how.changes_late = true;
+    std::string later = verify::scenario_of(result, names, how);
+    if (later != text) {
+        Play second = play_scenario(program, file, later, steps, !plant.empty());
+        if (second.played == Played::to_the_end) return {std::move(second), std::move(later)};
+    }
+    text = fmt::format(
+        "# The virtual motor cannot follow this course: {}.\n# With --stimulus it is written for "
+        "nanoplc-sim scan, which always follows.\n{}",
+        play.why, text);
+    return {std::move(play), std::move(text)};
+}
+
+/// Error if a file would overwrite an input or another output.
+std::string clash_in(const std::vector<whole_files::OutputFile>& files,
+                     const std::vector<std::string>& read) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string& file = files[i].path;
+        for (const std::string& other : read) {
+            if (is_same_file(file, other))
+                return fmt::format("'{}' was read: name another file to write", file);
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (is_same_file(file, files[j].path))
+                return fmt::format("'{}' would be written twice: name another file", file);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string file_for(const std::string& file, const std::string& name, bool is_first) {
+    if (is_first) return file;
+    const std::size_t slash = file.find_last_of("/\\");
+    std::size_t dot = file.rfind('.');
+    if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) dot = file.size();
+    return file.substr(0, dot) + "-" + name + file.substr(dot);
+}
+
+std::string written_courses(const verify::Report& report, const CourseFiles& wanted, const InputFile& program,
+                            const verify::Names& names, Plays& plays) {
+    const MotorLines plant = wanted.plant.empty() ? MotorLines{} : motor_lines_of(wanted.plant);
+    if (!plant.error.empty()) return plant.error;
+    std::vector<whole_files::OutputFile> files;
+    bool is_first = true;
+    for (const verify::Result& result : report.results) {
+        if (result.verdict != verify::Verdict::broken || !result.course || !result.code.empty()) continue;
+        const auto add = [&](const std::string& file, std::string text) {
+            files.push_back({file_for(file, result.name, is_first), std::move(text)});
+        };
+        if (!wanted.stimulus.empty()) add(wanted.stimulus, verify::stimulus_of(result));
+        if (!wanted.trace.empty()) add(wanted.trace, verify::trace_of(*result.course));
+        if (!wanted.scenario.empty()) {
+            Rehearsed done = rehearsed(result, program, file_for(wanted.scenario, result.name, is_first),
+                                       names, plant.lines);
+            add(wanted.scenario, std::move(done.text));
+            plays.insert_or_assign(result.name, std::move(done.play));
+        }
+        is_first = false;
+    }
+    std::string error = clash_in(files, wanted.read);
+    return error.empty() ? whole_files::write_files(files) : error;
+}
+
+std::string told(const Play& play) {
+    switch (play.played) {
+        case Played::to_the_end:
+            return fmt::format("nanoplc-sim run plays {} to the same end", play.file);
+        case Played::otherwise:
+            return fmt::format(
+                "the virtual motor cannot follow {}: {}; play it with --stimulus and nanoplc-sim scan",
+                play.file, play.why);
+        case Played::not_at_all:
+            break;
+    }
+    return fmt::format("{} was not played: {}", play.file, play.why);
+}
+
+}  // namespace nplc::seqc::cli

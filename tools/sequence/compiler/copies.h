@@ -1,0 +1,18 @@
+#pragma once
+
+#include "compiler/model.h"
+#include "diagnostics/report.h"
+#include "seqc/seqc.h"
+
+namespace nplc::seqc {
+
+/// A step's memory besides its number (outputs that are set, armed edges, a running time, a blinking lamp
+/// that is off) is represented by steps of the table: one copy of the step for each reachable combination.
+/// The first one reached keeps the step's number. No effect on a program without SET, R_TRIG, FOR and
+/// BLINKING. Names are added to the symbols of `result`; reports lack of space, or a conflict with NO_HELPER.
+void make_copies(Plan& plan, Compilation& result, Report& report);
+
+/// Reports a timer that a program presets and tests, with a WITHIN, FOR or BLINKING of a step in between.
+void check_shared_timer(const Plan& plan, Report& report);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,119 @@
+#include "compiler/on_conditions.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+
+#include "language/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using Steps = std::bitset<64>;
+
+class Groups {
+  public:
+    Groups(const ast::Program& program, Scope& scope) : scope_(scope) {
+        for (const ast::Group& group : program.groups) {
+            const Steps steps = all_of(group.steps);
+            const auto [earlier, is_new] = groups_.try_emplace(upper(group.name.text), &group.name, steps);
+            const ast::Step* step = nullptr;
+            for (const ast::Step* named : scope.steps()) {
+                if (same_name(named->name.text, group.name.text)) step = named;
+            }
+            if (is_new && step == nullptr) {
+                scope.add_group(group.name.text, steps.to_ullong());
+                continue;
+            }
+            scope.report()
+                .add("E020", group.name.span,
+                     fmt::format("'{}' is {} already", group.name.text, is_new ? "a step" : "a group"),
+                     "give one of them another name")
+                .notes.push_back(
+                    {is_new ? step->name.span : earlier->second.first->span, "the first one is here"});
+        }
+    }
+
+    Steps all_of(const std::vector<ast::Name>& names) {
+        Steps steps;
+        for (const ast::Name& name : names) {
+            const auto group = groups_.find(upper(name.text));
+            if (group != groups_.end()) {
+                steps |= group->second.second;
+            } else if (const auto number = scope_.step(name)) {
+                steps.set(*number);
+            }
+        }
+        return steps;
+    }
+
+  private:
+    Scope& scope_;
+    std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
+};
+
+/// In its target step it has no effect.
+void warn_if_nowhere(const OnCondition& on, Scope& scope) {
+    Steps left = on.steps;
+    for (std::size_t i = 0; i < scope.steps().size(); ++i) {
+        if (same_name(scope.steps()[i]->name.text, on.written->next.name.text))
+            left.reset(scope.number_of(i));
+    }
+    if (left.any() || on.written->only.empty() || on.steps.none()) return;
+    scope.report().add("W001", on.written->condition.span,
+                       "this condition does nothing: the step is where it leads",
+                       "name in IN the steps that it is to end");
+}
+
+}  // namespace
+
+void warn_of_idle_except(const ast::Name& name, Scope& scope) {
+    scope.report().add("W001", name.span,
+                       fmt::format("EXCEPT does nothing here: IN does not name '{}'", name.text),
+                       "take it out, or name in IN the steps that are meant");
+}
+
+namespace {
+
+Steps all_steps(const Scope& scope) {
+    Steps steps;
+    for (std::size_t i = 0; i < scope.steps().size(); ++i) steps.set(scope.number_of(i));
+    return steps;
+}
+
+}  // namespace
+
+std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope,
+                                       std::optional<std::uint8_t> fault) {
+    Groups groups(program, scope);
+    std::vector<OnCondition> conditions;
+    for (const ast::OnCondition& written : program.on_conditions) {
+        const std::size_t errors = scope.report().error_count() + scope.faulty_names_met();
+        OnCondition on{&written, scope.branch_truth(written.condition), {}};
+        const bool is_sound = scope.report().error_count() + scope.faulty_names_met() == errors;
+        if (!is_sound) on.when.reset();  // what it stands for is not known: it takes no case of others
+        if (on.when.none() && is_sound) {
+            scope.report().add("W001", written.condition.span, "this condition never holds",
+                               "it contradicts itself: mend it, or take the line out");
+        }
+        if (written.only.empty()) {
+            on.steps = all_steps(scope);
+            if (fault) on.steps.reset(*fault);
+        } else {
+            on.steps = groups.all_of(written.only);
+        }
+        const Steps named = on.steps;
+        for (const ast::Name& name : written.except) {
+            const Steps left_out = groups.all_of({name});
+            if (left_out.any() && (left_out & named).none() && !written.only.empty())
+                warn_of_idle_except(name, scope);
+            on.steps &= ~left_out;
+        }
+        warn_if_nowhere(on, scope);
+        conditions.push_back(on);
+    }
+    return conditions;
+}
+
+}  // namespace nplc::seqc

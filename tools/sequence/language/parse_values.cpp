@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "language/names.h"
+#include "language/parser.h"
+
+/// Numbers, units and arithmetic.
+namespace nplc::seqc {
+namespace {
+
+std::string without_underscores(std::string_view text) {
+    std::string digits;
+    for (char c : text) {
+        if (c != '_') digits += c;
+    }
+    return digits;
+}
+
+/// Digits and underscores, then optionally a point and digits.
+bool to_number(std::string_view text, double& number) {
+    const std::size_t point = text.find('.');
+    if (point != text.npos && text.find('_', point) != text.npos) return false;
+    const std::string digits = without_underscores(text);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return error == std::errc() && end == digits.data() + digits.size();
+}
+
+bool to_based(std::string_view text, double& number) {
+    const std::size_t mark = text.find('#');
+    const std::string_view base_text = text.substr(0, mark);
+    const int base = base_text == "16" ? 16 : base_text == "8" ? 8 : base_text == "2" ? 2 : 0;
+    const std::string digits = without_underscores(text.substr(mark + 1));
+    std::uint32_t value = 0;
+    if (base == 0 || digits.empty()) return false;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+    number = value;
+    return error == std::errc() && end == digits.data() + digits.size();
+}
+
+double milliseconds_of(std::string_view unit) {
+    if (same_name(unit, "ms")) return 1;
+    if (same_name(unit, "s")) return 1000;
+    if (same_name(unit, "m")) return 60'000;
+    if (same_name(unit, "h")) return 3'600'000;
+    if (same_name(unit, "d")) return 86'400'000;
+    return 0;
+}
+
+bool is_digit_of_time(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_number_char(char c) {
+    return is_digit_of_time(c) || c == '.' || c == '_';
+}
+
+}  // namespace
+
+bool parse_time(std::string_view text, double& milliseconds) {
+    std::string_view rest = text.substr(text.find('#') + 1);
+    milliseconds = 0;
+    double previous_unit = 1e12;
+    while (!rest.empty()) {
+        std::size_t count = 0;
+        while (count < rest.size() && is_number_char(rest[count])) ++count;
+        std::size_t letters = count;
+        while (letters < rest.size() && !is_number_char(rest[letters])) ++letters;
+        double number = 0;
+        const double unit = milliseconds_of(rest.substr(count, letters - count));
+        if (!is_digit_of_time(rest.front()) || unit == 0 || unit >= previous_unit ||
+            !to_number(rest.substr(0, count), number))
+            return false;
+        milliseconds += number * unit;
+        previous_unit = unit;
+        rest.remove_prefix(letters);
+    }
+    return previous_unit < 1e12;
+}
+
+bool Parser::parse_value(ast::Value& value) {
+    in_value_ = true;
+    const bool is_value = parse_sum(value);
+    in_value_ = false;
+    return is_value;
+}
+
+bool Parser::parse_sum(ast::Value& value) {
+    const Token first = token();
+    if (!parse_product(value)) return false;
+    if (!at_symbol("+") && !at_symbol("-")) return true;
+    ast::Value sum;
+    sum.kind = ast::Value::Kind::sum;
+    sum.operands.push_back(std::move(value));
+    while (at_symbol("+") || at_symbol("-")) {
+        const bool taken_off = at_symbol("-");
+        ++at_;
+        ast::Value operand;
+        if (!parse_product(operand)) return false;
+        sum.operands.push_back(taken_off ? wrapped(ast::Value::Kind::negation, std::move(operand))
+                                         : std::move(operand));
+    }
+    sum.span = span_since(first);
+    value = std::move(sum);
+    return true;
+}
+
+bool Parser::parse_product(ast::Value& value) {
+    const Token first = token();
+    if (!parse_factor(value)) return false;
+    if (refuse_modulo(value)) return true;
+    if (!at_symbol("*") && !at_symbol("/")) return true;
+    ast::Value product;
+    product.kind = ast::Value::Kind::product;
+    product.operands.push_back(std::move(value));
+    while (at_symbol("*") || at_symbol("/")) {
+        const bool divides = at_symbol("/");
+        ++at_;
+        ast::Value operand;
+        if (!parse_factor(operand)) return false;
+        product.operands.push_back(divides ? wrapped(ast::Value::Kind::inverse, std::move(operand))
+                                           : std::move(operand));
+    }
+    product.span = span_since(first);
+    value = std::move(product);
+    return true;
+}
+
+ast::Value Parser::wrapped(ast::Value::Kind kind, ast::Value operand) {
+    ast::Value result;
+    result.kind = kind;
+    result.span = operand.span;
+    result.operands.push_back(std::move(operand));
+    return result;
+}
+
+bool Parser::parse_factor(ast::Value& value) {
+    const Token first = token();
+    note_place(ast::Role::constant);
+    if (depth_ == kDeepest && (at_symbol("(") || at_symbol("-") || at_symbol("+"))) {
+        report_.add("E013", first.span, "this value is nested too deeply", "give a part of it a name: CONST");
+        return false;
+    }
+    if (take_symbol("(")) {
+        ++depth_;
+        const bool sound = parse_value(value);
+        --depth_;
+        if (!sound || !expect_symbol(")", "to close the parenthesis")) return false;
+        value.span = span_since(first);
+        return true;
+    }
+    const bool has_sign = at_symbol("-") || at_symbol("+");
+    if (has_sign && (is_word_at(1) || is_symbol_at(1, "("))) {
+        const bool negative = at_symbol("-");
+        ++at_;
+        ++depth_;
+        const bool sound = parse_factor(value);
+        --depth_;
+        if (!sound || !negative) return sound;
+        value = wrapped(ast::Value::Kind::negation, std::move(value));
+        value.span = span_since(first);
+        return true;
+    }
+    if (is_word_at(0)) return parse_named_value(value);
+    return parse_literal(value);
+}
+
+/// Pitch, GP_MODE, or BY_COMMAND = HOME2_MODE.
+bool Parser::parse_named_value(ast::Value& value) {
+    const Token first = token();
+    value.kind = ast::Value::Kind::name;
+    value.name = name_of(first);
+    note_use(ast::Role::constant, first.span);
+    ++at_;
+    if (take_symbol("=")) {
+        value.kind = ast::Value::Kind::part;
+        ast::Value& chosen = value.operands.emplace_back();
+        if (is_word_at(0)) {
+            chosen.kind = ast::Value::Kind::name;
+            chosen.name = name_of(token());
+            chosen.span = token().span;
+            note_use(ast::Role::constant, chosen.span);
+            ++at_;
+        } else if (!parse_literal(chosen)) {
+            return false;
+        }
+    }
+    value.span = span_since(first);
+    return true;
+}
+
+bool Parser::parse_register_number(std::optional<ast::Value>& number) {
+    if (!expect_symbol("(", "after REG, as in REG(33)")) return false;
+    number.emplace();
+    if (!parse_literal(*number)) return false;
+    return expect_symbol(")", "after the register's number");
+}
+
+bool Parser::parse_literal(ast::Value& value) {
+    const Token first = token();
+    const bool negative = take_symbol("-");
+    if (!negative) take_symbol("+");
+    if (is_place()) expected_->value = true;
+    const Token literal = token();
+    const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
+                            literal.kind == TokenKind::time;
+    if (!is_literal) {
+        error_here(
+            "a value",
+            at("TRUE") || at("FALSE")
+                ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
+                : "only constants can be written; a register's value is brought in by selecting it, as "
+                  "in POSITION(P1), and another step is named with NEXT := Name;");
+        return false;
+    }
+    ++at_;
+    const Code code = literal.kind == TokenKind::time ? Code("E004") : Code("E003");
+    bool sound = false;
+    if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
+    if (literal.kind == TokenKind::based) sound = to_based(literal.text, value.number);
+    if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
+    if (!sound && literal.kind == TokenKind::time && refuse_decimal_comma_in_time(literal)) return false;
+    if (!sound || (negative && literal.kind != TokenKind::number)) {
+        report_.add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
+                    literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
+                    : literal.kind == TokenKind::based
+                        ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
+                    : literal.text.find('.') < literal.text.find('_')
+                        ? "write 1_000.5: underscores stand before the point"
+                        : "no register takes a number of this size");
+        return false;
+    }
+    value.is_raw = literal.kind == TokenKind::based;
+    value.is_time = literal.kind == TokenKind::time;
+    if (negative) value.number = -value.number;
+    if (literal.kind == TokenKind::number) parse_unit(value);
+    value.span = span_since(first);
+    return !refuse_decimal_comma(first);
+}
+
+/// 80,5 mm; in a TERM the comma separates two bytes.
+bool Parser::refuse_decimal_comma(const Token& first) {
+    const Token& last = tokens_[at_ - 1];
+    const Token& digits = token(1);
+    const bool touches = token().span.offset == last.span.offset + last.span.length &&
+                         digits.span.offset == token().span.offset + 1;
+    if (in_term_ || !at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number ||
+        !touches)
+        return false;
+    at_ += 2;
+    const bool maybe_thousands = digits.text.size() == 3 && last.text != "0";
+    report_.add("E003", span_since(first), "a number has a decimal point",
+                maybe_thousands
+                    ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
+                    : fmt::format("write {}.{}", last.text, digits.text));
+    return true;
+}
+
+/// T#0,8s
+bool Parser::refuse_decimal_comma_in_time(const Token& literal) {
+    const Token digits = token(1);
+    const std::uint32_t comma = literal.span.offset + literal.span.length;
+    if (!at_symbol(",") || token().span.offset != comma || digits.kind != TokenKind::number ||
+        digits.span.offset != comma + 1)
+        return false;
+    at_ += 2;
+    std::string_view unit;
+    if (token().kind == TokenKind::identifier &&
+        token().span.offset == digits.span.offset + digits.span.length) {
+        unit = token().text;
+        ++at_;
+    }
+    report_.add("E004", span_since(literal), "a number has a decimal point",
+                fmt::format("write {}.{}{}", literal.text, digits.text, unit));
+    return true;
+}
+
+void Parser::parse_unit(ast::Value& value) {
+    const Token first = token();
+    if (is_place()) expected_->unit = true;
+    if (first.kind == TokenKind::direct) {
+        value.unit = name_of(first);
+        ++at_;
+        return;
+    }
+    if (same_name(token().text, "IN") && (is_symbol_at(1, ";") || is_symbol_at(1, "/"))) {
+        while (!at_symbol(";") && !at_boundary()) ++at_;
+        report_.add("E043", span_since(first), "there are no inches here",
+                    "write it in mm: 1 inch is 25.4 mm");
+        return;
+    }
+    if (first.kind != TokenKind::identifier || is_reserved(first.text)) return;
+    ++at_;
+    std::string written(first.text);
+    for (; at_symbol("/") && token(1).kind == TokenKind::identifier && !(in_value_ && is_symbol_at(2, "="));
+         at_ += 2)
+        written.append("/").append(token(1).text);
+    value.unit.span = span_since(first);
+    value.unit.text = source_.substr(value.unit.span.offset, value.unit.span.length);
+    note_use(ast::Role::unit, value.unit.span);
+    if (value.unit.text.size() == written.size()) return;
+    value.unit.text = texts_.emplace_back(std::move(written));
+}
+
+}  // namespace nplc::seqc
