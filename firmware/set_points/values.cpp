@@ -122,6 +122,10 @@ std::string text_of(const SetPoint& point, std::int32_t value) {
     return in_unit(number_text(point, value), point.unit);
 }
 
+std::string short_text_of(const SetPoint& point, std::int32_t value) {
+    return in_unit(shortest_text(point, value), point.unit);
+}
+
 std::string range_text(const SetPoint& point) {
     std::string text = fmt::format("{} to {}", text_of(point, point.lowest), text_of(point, point.highest));
     if (point.step > 0)

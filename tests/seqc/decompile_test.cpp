@@ -267,8 +267,12 @@ TEST(Decompile, ValuesInUnits) {
     EXPECT_TRUE(has(said({0x4D, 0xFF, 0x03, 0, 0}, mac140), "T1 := 1023; // 100 %peak"));
     // L1 has 8 bits behind the point: 0180h is 1.5
     EXPECT_TRUE(has(said({0x51, 0x80, 0x01, 0, 0}, mac140), "L1 := 1.5;\n"));
-    // FF41h is -191: / 256 = -0.74609375, 11 characters: too long to read
-    EXPECT_TRUE(has(said({0x51, 0x41, 0xFF, 0, 0}, mac140), "L1 := 16#FF41; // -0.74609\n"));
+    // FF41h is -191: / 256 = -0.74609375; -0.746 x 256 = -190.976 is the same, -0.75 x 256 is -192
+    EXPECT_TRUE(has(said({0x51, 0x41, 0xFF, 0, 0}, mac140), "L1 := -0.746;\n"));
+    // 013Ch is 316: 1.234 x 256 = 315.904 rounds to it, 1.23 x 256 = 314.88 does not
+    EXPECT_TRUE(has(said({0x51, 0x3C, 0x01, 0, 0}, mac140), "L1 := 1.234;\n"));
+    // 0001h: 0.0039 x 256 = 0.9984; 0.004 x 256 = 1.024 is 2.4 % off, which W002 would tell
+    EXPECT_TRUE(has(said({0x51, 0x01, 0x00, 0, 0}, mac140), "L1 := 0.0039;\n"));
     // 100 rpm is 277 on a MAC800 (004, register 5)
     EXPECT_TRUE(has(said({0xC1, 0x15, 0x01, 0, 0}, mac800), "V1 := 277; // 99.98 rpm"));
     // Register 116 is REC_CNT on MAC50-141; without --motor only 1..88 have names.

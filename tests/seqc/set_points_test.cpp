@@ -158,6 +158,26 @@ TEST(SetPoints, ComeBackFromTheTableWithItsSymbols) {
     EXPECT_NE(back.text.find("TAKES SET_POINTS;"), std::string::npos);
 }
 
+// 819.2 counts a mm. 40/7 mm are 4681 counts: 5.714 mm are 4680.9, 5.71 mm 4677.6. 80/7 mm are 9362: 11.428
+// mm are 9361.8, 11.43 mm 9363.5. The STEP itself is in no byte of the table, and comes back as it was.
+TEST(SetPoints, ComeBackWithTheFewestDigits) {
+    const Compilation compilation =
+        good(machine("SET_POINT Pitch AT P2 := 40 mm / 7 RANGE 1 .. 200 mm;\n"
+                     "SET_POINT Slot AT P3 := 80 mm / 7 RANGE 40 mm / 7 .. 400 mm / 7 STEP 40 mm / 7;\n",
+                     "STEP S: TAKES SET_POINTS; IF IN0 THEN INIT(V1); NEXT := M; END_IF END_STEP\n"
+                     "STEP M: ENTRY POSITION(Pitch); IF INPOS AND IN1 THEN NEXT := W; END_IF END_STEP\n"
+                     "STEP W: ENTRY POSITION(Slot); IF INPOS AND NOT IN1 THEN NEXT := S; END_IF END_STEP\n"));
+    DecompileOptions options;
+    options.symbols = &compilation.symbols;
+    const Decompilation back = decompile(compilation.table, options);
+    EXPECT_NE(back.text.find("Pitch AT P2 := 5.714 mm RANGE 1 mm .. 200 mm;"), std::string::npos)
+        << back.text;
+    EXPECT_NE(back.text.find("Slot AT P3 := 11.428 mm RANGE "), std::string::npos) << back.text;
+    const Compilation again = good(back.text);
+    EXPECT_EQ(again.table, compilation.table);
+    EXPECT_EQ(again.symbols.set_points, compilation.symbols.set_points);
+}
+
 /// A ramp that the drive reaches with the defaults and not at the ends of the ranges.
 TEST(SetPoints, MidiRampsHoldOverTheWholeRange) {
     const char* steps =

@@ -8,6 +8,7 @@
 #include "analysis/story.h"
 #include "findings.h"
 #include "motor_orders.h"
+#include "registers/mac.h"
 #include "walk.h"
 
 namespace nplc::verify {
@@ -16,11 +17,6 @@ namespace {
 using Node = Explorer::Node;
 using sequencer::MotorOrder;
 using table::OrderKind;
-
-std::string order_text(const MotorOrder& order) {
-    return order.is_register_write ? fmt::format("{}={}", order.reg, order.value)
-                                   : fmt::format("{:02X}h", order.command);
-}
 
 /// For each group, whether one of its commands has the property.
 template <class IsSuch>
@@ -257,37 +253,55 @@ std::vector<Finding> find_undone(const Subject& subject) {
         findings.push_back(
             {"V012", step,
              fmt::format("in a scan of step {} {} is sent after {} and undoes it",
-                         step_name(subject.names, step), order_text(pair->second), order_text(pair->first)),
+                         step_name(subject.names, step), order_text(pair->second, subject.names),
+                         order_text(pair->first, subject.names)),
              std::move(*course)});
     }
     return findings;
 }
 
+/// "Fast (V1)": the program's name of a register that an order selects, and the motor's. All motors have
+/// those that can be selected.
+std::string selected_name(const MotorOrder& order, std::uint8_t reg, const Names& names) {
+    const registers::Register* known = registers::find(registers::Model::mac140, reg);
+    const std::string plain = known == nullptr ? std::to_string(reg) : std::string(known->name);
+    const std::string text = names.order ? names.order(order) : "";
+    const std::size_t open = text.find('(');
+    if (open == text.npos || !text.ends_with(')')) return plain;
+    const std::string own = text.substr(open + 1, text.size() - open - 2);
+    return own == plain ? plain : fmt::format("{} ({})", own, plain);
+}
+
 /// V014
 std::vector<Finding> find_never_written(const Subject& subject) {
-    std::map<std::uint8_t, const Group*> selected;
+    struct Selection {
+        const Group* group;
+        const MotorOrder* order;
+    };
+    std::map<std::uint8_t, Selection> selected;
     std::array<bool, 128> written{};
     for (const Group* group : used_groups(subject.explorer)) {
         for (const MotorOrder& order : group->outcome.orders) {
             if (order.is_register_write) {
                 written[order.reg & 0x7FU] = true;
             } else if (const std::uint8_t reg = table::selected_register(order); reg != 0) {
-                selected.try_emplace(reg, group);
+                selected.try_emplace(reg, Selection{group, &order});
             }
         }
     }
     std::vector<Finding> findings;
-    for (const auto& [reg, group] : selected) {
+    for (const auto& [reg, selection] : selected) {
         if (written[reg]) continue;
-        const Explorer::Edge& edge = subject.explorer.first_edge_with(*group);
+        const Explorer::Edge& edge = subject.explorer.first_edge_with(*selection.group);
         const std::uint8_t step = subject.explorer.place(edge.from).step;
         auto course = subject.courses.with(edge);
         if (!course) continue;
-        findings.push_back({"V014", step,
-                            fmt::format("step {} selects register {}, and nothing ever writes it: it holds "
-                                        "what somebody stored in the motor",
-                                        step_name(subject.names, step), reg),
-                            std::move(*course)});
+        findings.push_back(
+            {"V014", step,
+             fmt::format("step {} selects register {}, and nothing ever writes it: it holds "
+                         "what somebody stored in the motor",
+                         step_name(subject.names, step), selected_name(*selection.order, reg, subject.names)),
+             std::move(*course)});
     }
     return findings;
 }

@@ -257,7 +257,27 @@ class ClaimResolver {
         return std::nullopt;
     }
 
+    /// An input or output of that name: the motor's is meant, and nobody would see it.
+    void refuse_signal_named_moving(const ast::Name& name) {
+        const bool is_output = place_of(symbols_.outputs, name.text).has_value();
+        if (moving_is_told_ || (!is_output && !place_of(symbols_.inputs, name.text))) return;
+        moving_is_told_ = true;
+        Span span = name.span;
+        for (const auto* variables : {&program_.inputs, &program_.outputs}) {
+            for (const ast::Variable& variable : *variables) {
+                if (same_name(variable.name.text, name.text)) span = variable.name.span;
+            }
+        }
+        report_.add(
+            "E011", span,
+            fmt::format(
+                "in a property '{}' holds while the motor moves: {} of that name cannot be named there",
+                name.text, is_output ? "an output" : "an input"),
+            "choose another name for it, such as Is_Moving");
+    }
+
     Condition signal(const ast::Name& name) {
+        if (same_name(name.text, "moving")) refuse_signal_named_moving(name);
         if (const auto known = signal_of(name.text)) return *known;
         const bool is_told = program_.names_missing || declares(program_.inputs, name.text) ||
                              declares(program_.outputs, name.text) ||
@@ -411,6 +431,7 @@ class ClaimResolver {
     bool is_whole_;
     Report& report_;
     std::unordered_map<std::string, Span> names_;
+    bool moving_is_told_ = false;
 };
 
 PropertyReading reading_of(const ast::Program& tree, const Symbols& symbols, Report& report) {

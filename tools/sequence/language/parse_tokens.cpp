@@ -174,6 +174,26 @@ void Parser::note_place(ast::Role role) const {
     if (is_place()) expected_->names.push_back(role);
 }
 
+/// STEP NEVER: is told there, once, and its uses are read as those of a name.
+bool Parser::is_declared_step(std::string_view word) const {
+    for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
+        const Token& behind = tokens_[i + 2];
+        const bool ends_head = behind.text == ":" || same_name(behind.text, "AT");
+        if (same_name(tokens_[i].text, "STEP") && same_name(tokens_[i + 1].text, word) && ends_head)
+            return true;
+    }
+    return false;
+}
+
+void Parser::refuse_step_name(const ast::Name& name) {
+    report_.add(
+        "E011", name.span,
+        fmt::format("'{0}' is a word of the language: neither NEXT := {0} nor STEP = {0} in a property could "
+                    "tell the step from it",
+                    name.text),
+        fmt::format("choose another name, such as {}_Step", name.text));
+}
+
 bool Parser::expect_name(ast::Name& name, std::string_view what, ast::Role role, bool declares) {
     note_place(declares ? ast::Role::other : role);
     if (token().kind != TokenKind::identifier) {
@@ -181,7 +201,10 @@ bool Parser::expect_name(ast::Name& name, std::string_view what, ast::Role role,
         return false;
     }
     name = name_of(token());
-    if (is_reserved(name.text)) {
+    const bool is_step = role == ast::Role::step || role == ast::Role::step_or_group;
+    if (is_reserved(name.text) && is_step && is_declared_step(name.text)) {
+        if (declares) refuse_step_name(name);
+    } else if (is_reserved(name.text)) {
         report_.add("E011", name.span, fmt::format("'{}' is a word of the language, not {}", name.text, what),
                     "choose another name");
         return false;

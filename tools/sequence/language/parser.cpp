@@ -343,7 +343,7 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, ast::Role rol
 void Parser::parse_step(ast::Program& program) {
     const Span opened = token().span;
     ++at_;
-    if (at("STEP")) {
+    if (at("STEP") && !is_symbol_at(1, ":") && !same_name(token(1).text, "AT")) {
         report_.add("E010", token().span, "STEP stands twice", "write it once: STEP Name:");
         ++at_;
     }

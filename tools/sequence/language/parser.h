@@ -69,6 +69,8 @@ class Parser {
     bool at_equals();
     bool expect_symbol(std::string_view symbol, std::string_view where);
     bool expect_name(ast::Name& name, std::string_view what, ast::Role role, bool declares = false);
+    bool is_declared_step(std::string_view word) const;
+    void refuse_step_name(const ast::Name& name);
     void note_use(ast::Role role, Span span, bool declares = false) {
         uses_.push_back({role, span, declares});
     }

@@ -24,6 +24,8 @@ bool is_on_grid(const SetPoint& point, std::int32_t value);
 std::string grid_beside(const SetPoint& point, std::int32_t value);
 /// "80 mm": in the unit, with as many digits as tell it from its neighbours.
 std::string text_of(const SetPoint& point, std::int32_t value);
+/// The fewest digits that are read as this value; a STEP's own number may have more.
+std::string short_text_of(const SetPoint& point, std::int32_t value);
 /// "10 mm to 200 mm in steps of 0.1 mm"
 std::string range_text(const SetPoint& point);
 

@@ -92,6 +92,22 @@ std::optional<std::string_view> rate_of(Unit unit) {
     return std::nullopt;
 }
 
+/// Of the numbers that the compiler rounds to `number` steps the one with the fewest digits; empty if none is
+/// short. `near`: near enough for no W002.
+std::string fewest_digits(std::int64_t number, double steps, bool near) {
+    constexpr int kMostDigits = 8;
+    constexpr double kMostOff = 0.005;
+    const auto wanted = static_cast<double>(number);
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+        std::string value = fmt::format("{:.{}g}", wanted / steps, digits);
+        const double exact = std::stod(value) * steps;
+        const bool is_near = !near || std::fabs(exact - wanted) <= kMostOff * std::fabs(wanted);
+        const bool is_plain = value.find('e') == std::string::npos;
+        if (is_plain && is_near && std::llround(exact) == number) return value;
+    }
+    return {};
+}
+
 /// "60 mm": the shortest text for this number of steps; empty without a scale, or if none is short.
 std::string length_text(const Register& reg, std::int64_t number, const Symbols& symbols) {
     const auto rate = rate_of(reg.unit);
@@ -101,17 +117,8 @@ std::string length_text(const Register& reg, std::int64_t number, const Symbols&
     const std::string written = fmt::format("{}{}", scale.unit, *rate);
     const auto steps = raw_per_unit(reg, symbols.motor, unit, written);
     if (!steps) return {};
-    constexpr int kMostDigits = 8;
-    constexpr double kMostOff = 0.005;  // otherwise W002 would report it
-    for (int digits = 1; digits <= kMostDigits; ++digits) {
-        const std::string value = fmt::format("{:.{}g}", static_cast<double>(number) / *steps, digits);
-        const bool is_plain = value.find('e') == std::string::npos;
-        const double exact = std::stod(value) * *steps;
-        const bool is_near = rate->empty() || std::fabs(exact - static_cast<double>(number)) <=
-                                                  kMostOff * std::fabs(static_cast<double>(number));
-        if (is_plain && is_near && std::llround(exact) == number) return fmt::format("{} {}", value, written);
-    }
-    return {};
+    const std::string value = fewest_digits(number, *steps, !rate->empty());
+    return value.empty() ? value : fmt::format("{} {}", value, written);
 }
 
 /// What SCALE makes of the number has no short text that means exactly this number.
@@ -153,8 +160,8 @@ ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& sym
     const double steps_in_one = raw_per_unit(reg, model, std::nullopt, {}).value_or(1);
     if (steps_in_one != 1) {
         const double value = static_cast<double>(number) / steps_in_one;
-        const std::string decimal = fmt::format("{}", value);
-        const bool is_short = decimal.size() <= kLongestDecimal && decimal.find('e') == std::string::npos;
+        const std::string decimal = fewest_digits(number, steps_in_one, true);
+        const bool is_short = !decimal.empty() && decimal.size() <= kLongestDecimal;
         return is_short ? ValueText{decimal, {}} : ValueText{bits_text(reg, bits), short_number(value)};
     }
     const std::string_view unit = shown_unit(reg.unit);

@@ -150,11 +150,14 @@ class Writer {
                 point.at_power_up ? registers::find(context_.motor, point.reg) : nullptr;
             std::string text = fmt::format("SET_POINT {}", point.name);
             if (reg != nullptr) text += " AT " + register_address(*reg, context_);
-            text += fmt::format(" := {} RANGE {} .. {}", set_points::text_of(point, point.initial),
-                                set_points::text_of(point, point.lowest),
-                                set_points::text_of(point, point.highest));
-            if (point.step > 0)
-                text += fmt::format(" STEP {:g}{}{}", point.step, point.unit.empty() ? "" : " ", point.unit);
+            const std::string unit = point.unit.empty() ? "" : " " + point.unit;
+            // The grid of the STEP begins at the lower end as written.
+            const std::string low = point.grid_from  ? fmt::format("{}{}", *point.grid_from, unit)
+                                    : point.step > 0 ? set_points::text_of(point, point.lowest)
+                                                     : set_points::short_text_of(point, point.lowest);
+            text += fmt::format(" := {} RANGE {} .. {}", set_points::short_text_of(point, point.initial), low,
+                                set_points::short_text_of(point, point.highest));
+            if (point.step > 0) text += fmt::format(" STEP {}{}", point.step, unit);
             line(0, text + ";");
         }
         end_passage(Kind::values);
