@@ -181,7 +181,7 @@ class Systemd(unittest.TestCase):
         free = self.run_there("su -s /bin/sh nanoplc /test/probe").splitlines()
         self.assertEqual([line.split()[-1] for line in free], ["open"] * 5, free)
         self.run_there("sed -e 's,^ExecStart=.*,ExecStart=/bin/sh /test/probe,' -e 's,^Type=.*,Type=oneshot,' "
-                       "-e '/^Restart/d; /^Watchdog/d; /^RuntimeDirectory/d' -e '/^ExecStart/aStandardOutput=file:/run/probed' "
+                       "-e '/^ExecStopPost/d; /^Restart/d; /^Watchdog/d; /^RuntimeDirectory/d' -e '/^ExecStart/aStandardOutput=file:/run/probed' "
                        "/lib/systemd/system/nanoplc.service >/run/systemd/system/probe.service")
         self.run_there("systemctl daemon-reload; systemctl start probe")
         confined = dict(line.split() for line in self.run_there("cat /run/probed").splitlines())
