@@ -73,6 +73,19 @@ TEST_F(SilentAxis, AStopIsAnsweredWithinASecondAndObeyedLater) {
     }
 }
 
+/// As by SIGSTOP of the whole process.
+TEST_F(SilentAxis, AFaceThatWasHaltedTooGivesItsAxisTime) {
+    start();
+    ASSERT_TRUE(panel->submit(order(gw::Command::stop)));
+    EXPECT_FALSE(panel->take(now()));
+    halt(2s);
+    EXPECT_FALSE(panel->take(now()));
+    run(50ms);
+    const auto ended = panel->take(now());
+    ASSERT_TRUE(ended);
+    EXPECT_EQ(ended->result, Result::done);
+}
+
 TEST_F(SilentAxis, EachRepeatedStopIsAnswered) {
     const auto first = panel->submit(order(gw::Command::stop));
     ASSERT_TRUE(answer(*panel, kLongestAnswer));

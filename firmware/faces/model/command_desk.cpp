@@ -122,7 +122,8 @@ void CommandDesk::answer_stops(Place& place, base::Instant now) {
     for (std::size_t left = place.open_stops.size(); left != 0; --left) {
         OpenStop stop = place.open_stops.front();
         place.open_stops.pop();
-        if (!stop.seen) stop.seen = now;
+        if (!stop.seen || now - stop.looked > kHalted) stop.seen = now;
+        stop.looked = now;
         if (now - *stop.seen < (stop.is_read ? kUnended : kUnread))
             place.open_stops.push(stop);
         else

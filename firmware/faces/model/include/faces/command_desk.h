@@ -39,6 +39,7 @@ class CommandDesk {
     static constexpr std::size_t kMostWaiting = 8;  ///< per client
     static constexpr base::Milliseconds kUnread{750};
     static constexpr base::Milliseconds kUnended{1'100};
+    static constexpr base::Milliseconds kHalted{500};  ///< without a take(): the face itself was halted
 
     /// One client of a face. Its destructor drops unread outcomes and pending commands (except stops) and
     /// frees its seat. Used by one thread.
@@ -53,7 +54,8 @@ class CommandDesk {
         std::optional<std::uint32_t> submit(const Command& command);
         /// The next outcome. A stop is answered for an axis that does not answer: kUnread after the first
         /// take() that finds it unread, or kUnended after that the axis's loop has read and not ended it. It
-        /// is carried out nevertheless, and how it ended is told then, too.
+        /// is carried out nevertheless, and how it ended is told then, too. Time counts anew after kHalted
+        /// without a take().
         std::optional<Completion> take(base::Instant now);
         /// The same of outcomes that the loop has told.
         std::optional<Completion> take();
@@ -101,7 +103,8 @@ class CommandDesk {
     struct OpenStop {
         std::uint32_t id = 0;
         bool is_read = false;
-        std::optional<base::Instant> seen{};  ///< the first take()
+        std::optional<base::Instant> seen{};  ///< the first take(), or the first after a halt
+        base::Instant looked{};               ///< the last take()
     };
     struct Place {
         std::uint64_t number = 0;  ///< 0: free
