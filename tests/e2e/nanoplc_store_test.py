@@ -213,7 +213,7 @@ class FullDisk(SmallDisk):
         self.assertEqual((status["state"], status["safe_reason"]), ("stopped", "watchdog"))
 
     def test_the_plant_reads_stops_and_is_told_what_was_not_kept(self):
-        example = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "seqc", "examples", "cut_to_length.seq")
+        example = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "sequence", "examples", "cut_to_length.seq")
         cutter = self.path("cutter.bin")
         subprocess.run([service_case.SEQC, "build", example, "-o", cutter], check=True, stdout=subprocess.DEVNULL)
         config = self.write(self.axis(), service='[modbus]\nlisten = "tcp:127.0.0.1:0"\n')

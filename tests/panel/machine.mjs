@@ -10,7 +10,7 @@ import { WebSocket } from "ws";
 
 export const root = process.env.ROOT;
 export const programs = process.env.PROGRAMS;
-export const examples = join(root, "tools", "seqc", "examples");
+export const examples = join(root, "tools", "sequence", "examples");
 const kLongest = 30_000; // until something is a failure
 
 /** `promise`, unless it takes longer than anything may; `what` it is, then. */

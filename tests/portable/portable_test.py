@@ -24,7 +24,7 @@ import simulator  # noqa: E402
 import targets  # noqa: E402
 
 REFERENCE = ""
-EXAMPLES = sorted(glob.glob(os.path.join(ROOT, "tools", "seqc", "examples", "*.seq")))
+EXAMPLES = sorted(glob.glob(os.path.join(ROOT, "tools", "sequence", "examples", "*.seq")))
 OWN_OF_WINDOWS = {"kernel32.dll", "msvcrt.dll", "ws2_32.dll", "advapi32.dll", "user32.dll", "shell32.dll"}
 
 # Says its argument and its input again; knows svg only.
@@ -323,7 +323,7 @@ class Fmu(Case):
         return done.stdout.replace(b"\r\n", b"\n")
 
     def test_its_library_for_windows_computes_the_same(self):
-        program = os.path.join(ROOT, "tools", "seqc", "examples", "pick_and_place.seq")
+        program = os.path.join(ROOT, "tools", "sequence", "examples", "pick_and_place.seq")
         self.reference("nanoplc-sim", "fmu", "-o", "axis.fmu", "--with-gateway", program, "--windows", self.target.fmu_library)
         with zipfile.ZipFile(self.path("axis.fmu")) as archive:
             archive.extractall(self.folder)
