@@ -73,13 +73,13 @@ bool Parser::refuse_out_tail() {
     const bool same_line = !has_line_end(last.span.offset, token().span.offset);
     std::size_t end = 1;
     while (token(end).kind == TokenKind::identifier && !same_name(token(end).text, "THEN")) ++end;
-    if (at("IF") && same_line && is_symbol_at(end, ";")) {
+    if (is_one_of(token(), {"IF"}) && same_line && is_symbol_at(end, ";")) {
         report_.add("E010", token().span, "an output follows a condition by WHEN",
                     "write OUT Name WHEN condition;");
         tokens_[at_].text = "WHEN";
         return false;
     }
-    if (at("AND") || at("OR")) {
+    if (is_one_of(token(), {"AND", "OR"})) {
         report_.add("E010", token().span, "names of outputs are separated by commas",
                     "write OUT Ready, Lamp;");
         return true;

@@ -487,18 +487,18 @@ void Parser::parse_out(ast::Step& step) {
     const Token first = token();
     ++at_;
     std::vector<ast::Name> outputs;
-    if (at("NOT")) {
+    if (is_one_of(token(), {"NOT"})) {
         report_.add("E010", token().span, "OUT names what is on in the step",
                     "leave it out: an output that OUT does not name is off");
         return recover();
     }
     if (refuse_out_of_set() || !parse_outputs(outputs)) return recover();
-    if (at("IN")) {
+    if (is_one_of(token(), {"IN"})) {
         report_.add("E010", token().span, "OUT with IN stands outside of the steps",
                     "in a step OUT Name; is what is on in it");
         return recover();
     }
-    if (at_symbol(":=") || at_symbol("=") || at("ON") || at("TRUE") || at("FALSE")) {
+    if (at_symbol(":=") || at_symbol("=") || is_one_of(token(), {"ON", "TRUE", "FALSE"})) {
         report_.add("E010", token().span, "OUT takes no value: it names what is on in the step",
                     "write OUT Name; an output that it does not name is off");
         return recover();
