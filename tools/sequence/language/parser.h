@@ -219,7 +219,7 @@ class Parser {
     bool refuse_decimal_comma_in_time(const Token& literal);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
 
-    // parse_terms.cpp
+    // parse_expressions.cpp
     bool at_symbolic_term() const;
     bool parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& terms);
     void parse_symbolic_body(ast::SymbolicTerm& term);

@@ -10,7 +10,7 @@
 
 namespace nplc::seqc {
 
-/// Source positions of a table's effects. Cases are those of `semantics/truth.h`.
+/// Source positions of a table's effects. Cases are those of `compiler/truth.h`.
 struct Written {
     using Cases = std::bitset<1024>;
 

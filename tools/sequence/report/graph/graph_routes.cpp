@@ -26,7 +26,7 @@ struct Place {
 };
 
 /// The horizontal part of a line from a box to its track.
-struct Stub {
+struct LineEnd {
     std::size_t channel = 0;
     std::uint8_t target = 0;
     Side box_on = Side::left;
@@ -42,7 +42,7 @@ struct Route {
     std::optional<std::size_t> way;
     Picture::LineKind kind = Picture::LineKind::forward;
     Shape shape = Shape::none;
-    std::size_t begin = 0;  ///< index in the stubs
+    std::size_t begin = 0;  ///< index in the line ends
     std::size_t end = 0;
 };
 
@@ -131,12 +131,12 @@ class Router {
             if (route.shape == Shape::beside) {
                 const bool to_left = to < from || (to == from && route.kind == Picture::LineKind::back);
                 const std::size_t channel = to_left ? from : from + 1;
-                route.begin = begin_stub(route, channel, to_left ? Side::right : Side::left);
-                route.end = end_stub(route, channel, to == channel ? Side::right : Side::left);
-                join(route, stubs_[route.begin].y, stubs_[route.end].y);
+                route.begin = begin_line(route, channel, to_left ? Side::right : Side::left);
+                route.end = end_line(route, channel, to == channel ? Side::right : Side::left);
+                join(route, line_ends_[route.begin].y, line_ends_[route.end].y);
             } else if (route.shape == Shape::far) {
-                route.begin = begin_stub(route, from + 1, Side::left);
-                route.end = end_stub(route, to, Side::right);
+                route.begin = begin_line(route, from + 1, Side::left);
+                route.end = end_line(route, to, Side::right);
                 join(route, kAbove, kAbove);
                 auto& [low, high] = buses_.try_emplace(route.target, std::minmax(from + 1, to)).first->second;
                 low = std::min({low, from + 1, to});
@@ -148,23 +148,23 @@ class Router {
 
     void join(const Route& route, double begin_to, double end_to) {
         for (const auto& [at, other] : {std::pair{route.begin, end_to}, {route.end, begin_to}}) {
-            const Stub& stub = stubs_[at];
-            tracks_.add(stub.channel, stub.target, stub.y, other, stub.box_on);
+            const LineEnd& line_end = line_ends_[at];
+            tracks_.add(line_end.channel, line_end.target, line_end.y, other, line_end.box_on);
         }
     }
 
-    std::size_t begin_stub(const Route& route, std::size_t channel, Side box_on) {
+    std::size_t begin_line(const Route& route, std::size_t channel, Side box_on) {
         const Card& card = columns_[route.from.column][route.from.row];
-        stubs_.push_back({channel, route.target, box_on, card.box.y + card.way_heights[*route.way]});
-        return stubs_.size() - 1;
+        line_ends_.push_back({channel, route.target, box_on, card.box.y + card.way_heights[*route.way]});
+        return line_ends_.size() - 1;
     }
 
-    /// One stub for all lines that arrive at a step from that side.
-    std::size_t end_stub(const Route& route, std::size_t channel, Side box_on) {
-        const auto [at, is_new] = ends_.try_emplace({channel, route.target, box_on}, stubs_.size());
+    /// One end for all lines that arrive at a step from that side.
+    std::size_t end_line(const Route& route, std::size_t channel, Side box_on) {
+        const auto [at, is_new] = ends_.try_emplace({channel, route.target, box_on}, line_ends_.size());
         if (is_new) {
             const Card& card = columns_[route.to.column][route.to.row];
-            stubs_.push_back({channel, route.target, box_on, card.box.y + card.entry_height});
+            line_ends_.push_back({channel, route.target, box_on, card.box.y + card.entry_height});
         }
         return at->second;
     }
@@ -211,9 +211,9 @@ class Router {
 
     /// Separates two lines that arrive from both sides at the same height.
     void keep_apart() {
-        for (Stub& right : stubs_) {
+        for (LineEnd& right : line_ends_) {
             if (right.box_on != Side::right) continue;
-            for (const Stub& left : stubs_) {
+            for (const LineEnd& left : line_ends_) {
                 if (left.box_on != Side::left || left.channel != right.channel || left.target == right.target)
                     continue;
                 const bool pass =
@@ -224,8 +224,8 @@ class Router {
         }
     }
 
-    double track_of(const Stub& stub) const {
-        return channels_[stub.channel] + tracks_.x(stub.channel, stub.target);
+    double track_of(const LineEnd& line_end) const {
+        return channels_[line_end.channel] + tracks_.x(line_end.channel, line_end.target);
     }
 
     static double beside(const Picture::Box& box, Side box_on) {
@@ -242,8 +242,8 @@ class Router {
             line.points = {{x, is_down ? from.y + from.height : from.y},
                            {x, is_down ? to.y : to.y + to.height}};
         } else if (route.shape != Shape::none) {
-            const Stub& begin = stubs_[route.begin];
-            const Stub& end = stubs_[route.end];
+            const LineEnd& begin = line_ends_[route.begin];
+            const LineEnd& end = line_ends_[route.end];
             const double first = begin.y + bus_room_;
             const double last = end.y + bus_room_;
             line.points = {{beside(from, begin.box_on), first}, {track_of(begin), first}};
@@ -260,7 +260,7 @@ class Router {
     LinesDrawn drawn_;
     std::map<std::uint8_t, Place> places_;
     std::vector<Route> routes_;
-    std::vector<Stub> stubs_;
+    std::vector<LineEnd> line_ends_;
     std::map<std::tuple<std::size_t, std::uint8_t, Side>, std::size_t> ends_;
     std::map<std::uint8_t, std::pair<std::size_t, std::size_t>> buses_;  ///< first and last channel
     std::map<std::uint8_t, double> bus_heights_;
