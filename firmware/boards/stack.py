@@ -43,7 +43,7 @@ def virtual_calls(board):
         (r"hal/mcu/stellaris/flash", [chip + "ChipFlash"]),
         (r"firmware/update/", [chip + "Flash"]),
         (r"firmware/gateway/(include/gateway/)?user_port", [*lines, *MOTORS]),
-        (r"firmware/gateway/own_registers", [*lines, *MOTORS]),
+        (r"firmware/gateway/gateway_registers", [*lines, *MOTORS]),
         (r"firmware/gateway/sequence_scan", [*MOTORS, "nplc::gateway::SetPoints"]),
         (r"firmware/gateway/", [*MOTORS, chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
     ]

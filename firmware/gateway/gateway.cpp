@@ -18,7 +18,7 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : watchdog_(ports.watchdog),
       motor_(ports.motor),
       permission_(cause),
-      signals_(ports.inputs, ports.outputs, settings.debounce),
+      io_image_(ports.inputs, ports.outputs, settings.debounce),
       settings_(settings),
       scan_(ports.motor) {
     show_outputs();
@@ -50,7 +50,7 @@ void Gateway::unlock(SafeReason reason) {
     if (permission_.unlock(reason)) safe_.set_reason(SafeReason::not_started);
 }
 
-void Gateway::withdraw(SafeReason reason, base::Instant now) {
+void Gateway::lock_and_enter_safe_state(SafeReason reason, base::Instant now) {
     permission_.end_start_up();
     permission_.lock(reason);
     enter_safe_state(reason, now);
@@ -86,7 +86,7 @@ void Gateway::look_for_proof() {
 /// Reads the pin directly, since nothing is debounced yet. If the enable input is off, no automatic start
 /// stays pending.
 void Gateway::autostart(base::Instant now) {
-    signals_.read(now);
+    io_image_.read(now);
     const base::Status started = run();
     if (!started && started.error() == base::Error::not_enabled)
         set_safe_reason(SafeReason::enable_lost, now);
@@ -96,7 +96,7 @@ base::Status Gateway::change(const Settings& settings) {
     if (run_state_ != RunState::stopped) return base::Error::not_stopped;
     settings_ = settings;
     look_for_proof();
-    signals_.set_debounce(settings.debounce);
+    io_image_.set_debounce(settings.debounce);
     show_outputs();
     return {};
 }
@@ -106,7 +106,7 @@ bool Gateway::enabled() const {
 }
 
 bool Gateway::input_enables() const {
-    return !settings_.enable_input || signals_.is_on(*settings_.enable_input);
+    return !settings_.enable_input || io_image_.is_on(*settings_.enable_input);
 }
 
 base::Status Gateway::run() {
@@ -146,7 +146,7 @@ base::Status Gateway::hold() {
     return {};
 }
 
-void Gateway::make_safe(base::Instant now) {
+void Gateway::enter_safe_state_by_command(base::Instant now) {
     end_forces();
     hold_.set_breakpoints(0);
     enter_safe_state(SafeReason::safe_command, now);
@@ -157,7 +157,7 @@ void Gateway::make_safe(base::Instant now) {
     scan_.wake(now);
     log_.advance(now);
     watch_polls(now);
-    signals_.read(now);
+    io_image_.read(now);
     expire_forces(now);
     note_motor_fault();
     if (motor::kLateLines) note_late_line();
@@ -196,7 +196,7 @@ void Gateway::serve_sequence(base::Instant now) {
 
 void Gateway::start_when_ready(base::Instant now) {
     if (is_mark_refused_) return enter_safe_state(SafeReason::bad_run_mark, now);
-    if (!motor::delivers(motor_.link())) {
+    if (!motor::link_is_usable(motor_.link())) {
         stop_ordered_ = false;
         return;
     }
@@ -204,7 +204,7 @@ void Gateway::start_when_ready(base::Instant now) {
         stop_motor();
         stop_ordered_ = true;
     }
-    if (needs_mark() || !motor_.settled()) return;
+    if (needs_mark() || !motor_.orders_complete()) return;
     run_state_ = RunState::running;
     settings_.on_start == OnStart::stop ? scan_.mode().set_passive() : scan_.mode().forget();
     stop_after_loss_ = false;
@@ -226,7 +226,7 @@ void Gateway::scan(base::Instant now) {
     if (hold_.is_at_once() && !scan_.is_under_way()) return begin_hold(false, now);
     const SequenceScan::Result result = scan_.poll(inputs(), now);
     if (result == SequenceScan::Result::waiting) {
-        if (scan_.waits_too_long(settings_.longest_wait, now)) enter_safe_state(SafeReason::motor_stuck, now);
+        if (scan_.timed_out(settings_.longest_wait, now)) enter_safe_state(SafeReason::motor_stuck, now);
         return;
     }
     const bool finished = result == SequenceScan::Result::finished;
@@ -257,8 +257,8 @@ void Gateway::begin_hold(bool breakpoint, base::Instant now) {
 /// Lets the orders of the last scan finish before the stop, which would drop them. Orders that keep the motor
 /// busy for longer than kLongestSettling are dropped, and the sequence cannot continue from there.
 void Gateway::hold_when_settled(base::Instant now) {
-    if (!motor_.settled()) {
-        if (scan_.waits_too_long(settings_.longest_wait, now))
+    if (!motor_.orders_complete()) {
+        if (scan_.timed_out(settings_.longest_wait, now))
             return enter_safe_state(SafeReason::motor_stuck, now);
         if (stop_ordered_ || !settles_too_long(now)) return;
         scan_.mode().forget();
@@ -280,7 +280,7 @@ void Gateway::hold_when_settled(base::Instant now) {
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = motor_.link();
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
-    const bool is_lost = !motor::delivers(link);
+    const bool is_lost = !motor::link_is_usable(link);
     if (is_lost != stop_after_loss_) {
         stop_after_loss_ = is_lost;
         stop_motor();
@@ -345,26 +345,26 @@ void Gateway::note(Event event, std::uint16_t detail) {
 }
 
 void Gateway::force_inputs(const Force& force, base::Instant now) {
-    signals_.forces().set_inputs(force, now);
+    io_image_.forces().set_inputs(force, now);
     note(Event::forced, registers::gateway::FORCE_IN);
 }
 
 void Gateway::force_outputs(const Force& force, base::Instant now) {
-    signals_.forces().set_outputs(force, now);
+    io_image_.forces().set_outputs(force, now);
     note(Event::forced, registers::gateway::FORCE_OUT);
     show_outputs();
 }
 
 void Gateway::end_forces() {
     if (!forces().any()) return;
-    signals_.forces().end();
+    io_image_.forces().end();
     note(Event::forces_ended);
     show_outputs();
 }
 
 void Gateway::expire_forces(base::Instant now) {
     if (!forces().any() || forces().left(now, settings_.force_time).count() != 0) return;
-    signals_.forces().end();
+    io_image_.forces().end();
     constexpr std::uint16_t kBySilence = 1;
     note(Event::forces_ended, kBySilence);
 }
@@ -378,11 +378,11 @@ void Gateway::show_outputs() {
         const bool on = status_light(run_state_, safe_reason(), uptime());
         levels = (levels & ~lamp) | (on ? lamp : 0U);
     }
-    signals_.write(static_cast<std::uint8_t>(levels));
+    io_image_.write(static_cast<std::uint8_t>(levels));
 }
 
 base::Instant Gateway::next_poll(base::Instant now, base::Instant motors) {
-    base::Instant next = std::min({motors, signals_.next_update(), forces().end(settings_.force_time)});
+    base::Instant next = std::min({motors, io_image_.next_update(), forces().end(settings_.force_time)});
     if (settings_.status_output) {
         const std::uint32_t beat = next_status_light(run_state_, safe_reason(), uptime());
         if (beat != 0) next = std::min(next, log_.uptime_in(beat));
@@ -403,13 +403,13 @@ base::Instant Gateway::next_work(base::Instant now) const {
             return base::kNever;
         case RunState::waiting_for_motor: {
             if (is_mark_refused_) return now;
-            if (!motor::delivers(motor_.link())) return base::kNever;
+            if (!motor::link_is_usable(motor_.link())) return base::kNever;
             const bool has_to_stop = settings_.on_start == OnStart::stop && !stop_ordered_;
-            return has_to_stop || (!needs_mark() && motor_.settled()) ? now : base::kNever;
+            return has_to_stop || (!needs_mark() && motor_.orders_complete()) ? now : base::kNever;
         }
         case RunState::holding:
-            if (motor_.settled()) return now;
-            return std::min(scan_.patience(settings_.longest_wait),
+            if (motor_.orders_complete()) return now;
+            return std::min(scan_.deadline(settings_.longest_wait),
                             stop_ordered_ ? base::kNever : settling_ends());
         case RunState::running:
             if (!hold_.is_at_once()) return scan_.next_poll(inputs(), settings_.longest_wait, now);

@@ -351,7 +351,7 @@ ModbusSlave::Need ModbusSlave::ask_motor(bool writes, std::uint8_t number, std::
     return Need::motor;
 }
 
-void ModbusSlave::end_write(const Progress& outcome) {
+void ModbusSlave::end_write(const PendingResult& outcome) {
     const std::uint32_t word = outcome.word();
     result_ = static_cast<std::uint16_t>(word & 0xFF);
     detail_ = static_cast<std::uint16_t>(word >> 16);

@@ -56,7 +56,7 @@ std::optional<motor::Access> MotorBridge::next_access() const {
 }
 
 MotorBridge::State MotorBridge::poll(base::Instant now, base::Microseconds pause) {
-    if (!motor::delivers(motor_.link()) || now - begun_ > kLongest) {
+    if (!motor::link_is_usable(motor_.link()) || now - begun_ > kLongest) {
         drop();
         return State::failed;
     }

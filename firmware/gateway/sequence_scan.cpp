@@ -69,7 +69,7 @@ void SequenceScan::count_timer(base::Instant now) {
 SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now) {
     if (now < next_scan_) return Result::waiting;
     const bool was_idle = std::exchange(idle_, false);
-    if (!motor_.settled()) {
+    if (!motor_.orders_complete()) {
         if (was_idle) progress_ = now;
         return Result::waiting;
     }
@@ -149,8 +149,8 @@ void SequenceScan::report(base::Instant now) const {
 base::Instant SequenceScan::next_poll(std::uint8_t inputs, base::Microseconds longest_wait,
                                       base::Instant now) const {
     if (resumes_) return now;
-    if (in_scan_) return motor_.has_room() ? now : patience(longest_wait);
-    if (!motor_.settled()) return idle_ ? now : patience(longest_wait);
+    if (in_scan_) return motor_.has_room() ? now : deadline(longest_wait);
+    if (!motor_.orders_complete()) return idle_ ? now : deadline(longest_wait);
     if (may_take_values()) return std::max(now, next_scan_);
     // At once unless a scan would change nothing; else when the timer reaches 0, the only part of the key
     // that changes without an event.

@@ -129,7 +129,7 @@ void SetPoints::keep(store::ValueSet set, const Values& values) const {
     }
 }
 
-Progress SetPoints::serve(Writer& writer, std::span<const std::uint8_t> bytes, base::Instant now) {
+PendingResult SetPoints::serve(Writer& writer, std::span<const std::uint8_t> bytes, base::Instant now) {
     if (!available_) return CommandResult{Result::no_register};
     if (writer.request == 0) {
         const std::uint32_t own_number = bytes.size() < kHead ? 0 : base::load_u32(&bytes[kOwnNumberAt]);

@@ -134,7 +134,7 @@ void SettingsManager::begin_mark() {
     if (keeps_mark_) store_wait(SafeReason::none);
 }
 
-Progress SettingsManager::poll_save() const {
+PendingResult SettingsManager::poll_save() const {
     if (!begun_) return CommandResult{result_of(begun_.error())};
     if (is_saving_) return std::nullopt;
     if (store_.phase() == store::Phase::failed) return CommandResult{result_of(store_.error())};

@@ -23,7 +23,7 @@ std::uint8_t Standstill::register_of_phase() const {
     return phase_ == Phase::speed ? registers::V_IST : registers::P_IST;
 }
 
-Progress Standstill::poll(base::Instant now) {
+PendingResult Standstill::poll(base::Instant now) {
     if (now - begun_ > kLongest) return CommandResult{Result::link_down};
     if (!asked_) {
         if (phase_ == Phase::second_position && now - position_at_ < kBetween) return std::nullopt;
@@ -47,12 +47,12 @@ Progress Standstill::poll(base::Instant now) {
 
 base::Instant Standstill::next_poll(base::Instant now) const {
     const base::Instant patience = begun_ + kLongest + base::Microseconds(1);
-    if (motor::is_open(motor_.access_state()) || !motor::delivers(motor_.link())) return patience;
+    if (motor::is_open(motor_.access_state()) || !motor::link_is_usable(motor_.link())) return patience;
     const bool pauses = !asked_ && phase_ == Phase::second_position;
     return std::min(patience, pauses ? std::max(now, position_at_ + kBetween) : now);
 }
 
-Progress Standstill::take(std::uint32_t value, base::Instant now) {
+PendingResult Standstill::take(std::uint32_t value, base::Instant now) {
     switch (phase_) {
         case Phase::first_position:
             position_ = value;

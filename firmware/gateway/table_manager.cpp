@@ -126,10 +126,10 @@ void TableManager::begin_activation(base::Instant now) {
     standstill_.begin(now);
 }
 
-Progress TableManager::poll_activation(base::Instant now) {
+PendingResult TableManager::poll_activation(base::Instant now) {
     if (gateway_.run_state() != RunState::stopped) return CommandResult{Result::not_stopped};
     if (!slots_.has_current()) return CommandResult{Result::nothing_stored};
-    const Progress still = standstill_.poll(now);
+    const PendingResult still = standstill_.poll(now);
     if (!still.is_done()) return still;
     return load_stored(now);
 }

@@ -214,7 +214,7 @@ void UserPort::go_on(base::Instant now) {
         case Serving::set_points: {
             const auto bytes = std::span(data_).first(data_size_);
             const bool is_own = !SetPointsPart::kIsThere || serving_ == Serving::own_write;
-            const Progress outcome =
+            const PendingResult outcome =
                 is_own ? own_.poll_write(bytes, now) : own_.serve_set_points(set_points_, bytes, now);
             if (!outcome) return;
             if (is_modbus_) {

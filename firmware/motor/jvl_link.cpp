@@ -77,7 +77,7 @@ void JvlLink::start(std::span<const std::uint8_t> bytes, Expect expect, base::In
 void JvlLink::rewind(base::Instant now) {
     sent_ = 0;
     on_the_line_ = false;
-    old_shown_ = 0;
+    stale_count_ = 0;
     const bool is_flexmac = size_ > 2;
     // A pause of two characters ends a message for the motor.
     next_byte_ = is_flexmac ? std::max(now, left_at_ + 3 * character_) : now;
@@ -88,7 +88,7 @@ void JvlLink::synchronize() {
     toggle_ = status().toggle;
     flexmac_ = status().flexmac;
     synchronized_ = true;
-    strange_shown_ = 0;
+    unexpected_count_ = 0;
 }
 
 void JvlLink::forget(base::Instant now) {
@@ -97,7 +97,7 @@ void JvlLink::forget(base::Instant now) {
     expect_ = Expect::nothing;
     accepted_ = synchronized_ = false;
     size_ = sent_ = 0;
-    strange_shown_ = 0;
+    unexpected_count_ = 0;
     reads_ = false;
     reply_.reset();
     last_status_ = now;
@@ -193,8 +193,8 @@ void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
     filter_.receive(byte);
     const Status seen = protocol::fastmac::decode_status(byte);
     const bool is_old = busy() && on_the_line_ && now - left_at_ >= patience() && shows_old(seen);
-    old_shown_ = is_old ? bump(old_shown_) : std::uint8_t{0};
-    strange_shown_ = in_step(seen) && !echo_was_false() ? std::uint8_t{0} : bump(strange_shown_);
+    stale_count_ = is_old ? bump(stale_count_) : std::uint8_t{0};
+    unexpected_count_ = in_step(seen) && !echo_was_false() ? std::uint8_t{0} : bump(unexpected_count_);
     if (is_done()) settle(now);
 }
 
@@ -205,7 +205,7 @@ bool JvlLink::shows_old(const Status& seen) const {
 /// Until FlexMAC is left the status shows the toggle of the message before; another one denies that this was
 /// accepted.
 bool JvlLink::echo_was_false() const {
-    return expect_ == Expect::leave_flexmac && strange_shown_ >= kFalseEchoBytes;
+    return expect_ == Expect::leave_flexmac && unexpected_count_ >= kFalseEchoBytes;
 }
 
 bool JvlLink::is_done() const {
@@ -218,7 +218,7 @@ bool JvlLink::is_done() const {
         case Expect::enter_flexmac:
             return status().toggle != toggle_ && status().flexmac;
         case Expect::leave_flexmac:
-            return !status().flexmac && strange_shown_ < kFalseEchoBytes;
+            return !status().flexmac && unexpected_count_ < kFalseEchoBytes;
     }
     return false;
 }
@@ -252,7 +252,7 @@ JvlLink::Result JvlLink::judge(base::Instant now) {
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
     if (now - last_status_ > longest_silence()) return Result::silent;
-    if (echo_was_false() || strange_shown_ >= kStrangeBytes) return Result::out_of_step;
+    if (echo_was_false() || unexpected_count_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;
 }
 
@@ -264,7 +264,7 @@ base::Microseconds JvlLink::patience() const {
 
 JvlLink::Result JvlLink::judge_message(base::Instant now) {
     if (now - started_ > kLongestMessage) return Result::refused;
-    if (old_shown_ < kProofBytes) return Result::none;
+    if (stale_count_ < kProofBytes) return Result::none;
     if (resends_ == kMostResends || !echo_.is_known()) return Result::refused;
     if (repeat_is_harmless()) echo_.doubt();
     ++resends_;

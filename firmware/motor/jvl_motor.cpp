@@ -144,7 +144,7 @@ void JvlMotor::start_up(base::Instant now) {
                 link_.synchronize();
                 phase_ = Phase::look;
             } else {
-                free_the_line(now);
+                request_slow_status_blind(now);
             }
             return;
         case Phase::look:
@@ -183,7 +183,7 @@ std::uint8_t JvlMotor::safety_command() const {
 
 /// The link cannot synchronize to a stream without pauses: sends "transmit slowly" with either toggle, twice
 /// each for safe communication.
-void JvlMotor::free_the_line(base::Instant now) {
+void JvlMotor::request_slow_status_blind(base::Instant now) {
     if (!link_.framing_error_seen() || now < next_blind_) return;
     constexpr std::uint8_t slowly = command_byte(Number::transmit_slowly);
     constexpr std::uint8_t other = protocol::fastmac::with_toggle(slowly, true);
@@ -295,7 +295,7 @@ void JvlMotor::stop() {
     blind_stop_.begin_anew();
 }
 
-bool JvlMotor::settled() const {
+bool JvlMotor::orders_complete() const {
     if (!is_up()) return true;
     const bool wants_slow = link_.framing_error_seen() && !slowed_;
     if (is_aside_) return orders_.empty() && !wants_stop();

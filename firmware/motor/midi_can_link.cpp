@@ -114,9 +114,9 @@ void MidiCanLink::watch_bus(base::Instant now) {
     may_restart_ = now + kRestartPause;
 }
 
-MidiTrouble MidiCanLink::trouble() const {
-    if (cut_) return MidiTrouble::no_bus;
-    return answers_.several() ? MidiTrouble::several : MidiTrouble::none;
+BusFault MidiCanLink::trouble() const {
+    if (cut_) return BusFault::no_bus;
+    return answers_.several() ? BusFault::several : BusFault::none;
 }
 
 bool MidiCanLink::take_boot() {

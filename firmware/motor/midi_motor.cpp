@@ -67,17 +67,17 @@ base::Instant MidiMotor::next_poll(base::Instant now) const {
 bool MidiMotor::has_work(base::Instant now) const {
     return (stop_wanted_ && now >= retry_at_) || reset_wanted_ || zero_wanted_ ||
            registers_.awaits_position() || orders_.is_executing() || !orders_.empty() || !status_is_new_ ||
-           motion_.is_doubtful() || access_.is_open();
+           motion_.motion_unconfirmed() || access_.is_open();
 }
 
 // Outcomes of messages.
 
 /// Both drives obey the stop, and where answers are damaged the requests may still be understood.
 void MidiMotor::look_for_trouble(base::Instant now) {
-    const MidiTrouble trouble = link_.trouble();
-    if (trouble == MidiTrouble::none) return;
+    const BusFault trouble = link_.trouble();
+    if (trouble == BusFault::none) return;
     const bool down = session_.is_down();
-    if (trouble == MidiTrouble::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
+    if (trouble == BusFault::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
     if (down && fault_ == MidiFault::several) return;
     session_.expect_up();  // reported even at a start, and before a loss that is not acknowledged yet
     fault_ = MidiFault::none;
@@ -104,7 +104,7 @@ void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
     // A probe or a blind stop: its answer counts as soon as only one module gives it.
     if (session_.is_down()) {
         probe_ = outcome;
-        const bool counts = outcome.kind <= Kind::refused && link_.trouble() == MidiTrouble::none;
+        const bool counts = outcome.kind <= Kind::refused && link_.trouble() == BusFault::none;
         session_.note_probe(counts);
         if (!counts) return;
     }
@@ -330,7 +330,7 @@ MidiNext MidiMotor::next_message(base::Instant now) {
     for (;;) {
         if (const MidiNext next = next_command(now); next != kNothing) return next;
         if (zero_unclear_ || registers_.awaits_position()) return midi_query(midi::GET_POSITION);
-        if (motion_.is_doubtful()) return next_query(now);
+        if (motion_.motion_unconfirmed()) return next_query(now);
         orders_.end();
         if (orders_.empty()) break;
         execute(orders_.begin());
@@ -341,7 +341,8 @@ MidiNext MidiMotor::next_message(base::Instant now) {
 }
 
 MidiNext MidiMotor::next_query(base::Instant now) {
-    return session_.next_query(motion_.moves() || motion_.needs_position(drive_), motion_.is_doubtful(), now);
+    return session_.next_query(motion_.moves() || motion_.needs_position(drive_),
+                               motion_.motion_unconfirmed(), now);
 }
 
 /// The command that can be sent now to bring the drive to the state in the registers; nothing while it has to
@@ -351,14 +352,15 @@ MidiNext MidiMotor::next_query(base::Instant now) {
     if (stop_wanted_)
         return now < retry_at_ ? kNothing : midi_command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
     if (reset_wanted_) return midi_command(midi::RESET);
-    if (zero_unclear_ || motion_.is_doubtful()) return kNothing;
+    if (zero_unclear_ || motion_.motion_unconfirmed()) return kNothing;
     if (zero_wanted_) return midi_command(midi::ZERO_POSITION);
     MidiGuidance guidance(registers_, drive_, motion_);
     if (const MidiNext next = guidance.next_parameter(); next != kNothing) return next;
     if (registers_.mode() == 0)
-        return motion_.moves() || (motion_.is_stray() && error()) ? midi_command(midi::STOP) : kNothing;
+        return motion_.moves() || (motion_.unexpected_motion() && error()) ? midi_command(midi::STOP)
+                                                                           : kNothing;
     if (refusals_ != 0 && now < retry_at_) return kNothing;
-    if (motion_.is_stray()) return midi_command(midi::STOP);
+    if (motion_.unexpected_motion()) return midi_command(midi::STOP);
     if (!session_.is_alone(now)) return kNothing;
     const MidiNext motion = guidance.next_motion();
     if (guidance.limitation() != Limitation::none) raise(MidiFault::bad_value, guidance.limitation());
@@ -503,10 +505,10 @@ void MidiMotor::stop() {
 
 // Reported state.
 
-bool MidiMotor::settled() const {
+bool MidiMotor::orders_complete() const {
     if (!session_.is_up()) return true;
     return orders_.empty() && !orders_.is_executing() && !stop_wanted_ && !reset_wanted_ &&
-           !session_.must_ask() && !motion_.is_doubtful() && status_is_new_;
+           !session_.must_ask() && !motion_.motion_unconfirmed() && status_is_new_;
 }
 
 bool MidiMotor::error() const {
@@ -519,7 +521,7 @@ MidiFault MidiMotor::fault() const {
 }
 
 bool MidiMotor::in_position() const {
-    if (!session_.is_up() || error() || motion_.is_doubtful()) return false;
+    if (!session_.is_up() || error() || motion_.motion_unconfirmed()) return false;
     if (registers_.mode() == 2) {
         const auto goal = target();
         return goal && motion_.has_arrived_at(*goal);

@@ -269,7 +269,7 @@ Snapshot World::take_snapshot() {
                       .v_ist = mac_.v_ist(),
                       .shaft = mac_.plant().counts(),
                       .torque = mac_.torque(),
-                      .link_up = motor::delivers(motor_->link()),
+                      .link_up = motor::link_is_usable(motor_->link()),
                       .running = controller_->sequence().run_state() == gateway::RunState::running,
                       .orders = std::exchange(orders_, {})};
     for (std::size_t i = 0; i < controller_->set_points().record().count(); ++i) {

@@ -110,7 +110,7 @@ class MidiMachine : public testing::Test {
             const auto drive = watch_.look(world().any_driver(), world().instant());
             if (!drive) return "no MIDI drive";
             std::uint32_t status = kRunning;
-            if (motor::delivers(world().driver().link())) status |= gw::kLinkDelivers;
+            if (motor::link_is_usable(world().driver().link())) status |= gw::kLinkDelivers;
             seen = first(*drive, {.status = status});
         }
         return seen;

@@ -25,15 +25,15 @@ bool StepMotor::can_execute(const Order& order) const {
 }
 
 void StepMotor::send(const Order& order) {
-    if (!delivers(link_)) {
+    if (!link_is_usable(link_)) {
         ++counters_.discarded;
         return;
     }
     orders_.push(order);
 }
 
-bool StepMotor::settled() const {
-    return !delivers(link_) || (orders_.empty() && !stops_ && !was_ordered_);
+bool StepMotor::orders_complete() const {
+    return !link_is_usable(link_) || (orders_.empty() && !stops_ && !was_ordered_);
 }
 
 void StepMotor::execute(const Order& order, base::Instant) {
@@ -54,7 +54,7 @@ void StepMotor::execute(const Order& order, base::Instant) {
 }
 
 void StepMotor::begin_orders(base::Instant now) {
-    if (is_asked_ || !delivers(link_)) return;
+    if (is_asked_ || !link_is_usable(link_)) return;
     if (stops_) {
         say("S");
         orders_.clear();
@@ -87,7 +87,7 @@ void StepMotor::poll(base::Instant now) {
     }
     if (is_asked_ && now - asked_ >= kLongestAnswer) {
         is_asked_ = false;
-        if (delivers(link_)) ++counters_.link_losses;
+        if (link_is_usable(link_)) ++counters_.link_losses;
         link_ = Link::down;
     }
     begin_orders(now);

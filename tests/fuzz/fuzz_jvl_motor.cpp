@@ -49,7 +49,7 @@ struct Line final : ports::SerialPort {
         const std::size_t taken = bytes.size() < room ? bytes.size() : room;
         for (const std::uint8_t byte : bytes.first(taken)) {
             const bool stops = blind_stop.take(byte) && was_told_to_stop;
-            require(motor::delivers(driver->link()) || stops || belongs_to_the_link(byte));
+            require(motor::link_is_usable(driver->link()) || stops || belongs_to_the_link(byte));
         }
         return taken;
     }
@@ -114,7 +114,7 @@ class Run {
                                                              .reg = static_cast<std::uint8_t>(value | 1),
                                                              .longword = value % 8 == 2,
                                                              .value = value});
-                    require(!taken || motor::delivers(driver_.link()));
+                    require(!taken || motor::link_is_usable(driver_.link()));
                 }
                 return poll(base::Microseconds(100));
         }
@@ -124,8 +124,8 @@ class Run {
     void settle(std::uint8_t steady) {
         line_.idle = true;
         line_.room = 64;
-        for (int i = 0; i < 16'000 && !driver_.settled(); ++i) hear(steady, false);
-        require(driver_.settled());
+        for (int i = 0; i < 16'000 && !driver_.orders_complete(); ++i) hear(steady, false);
+        require(driver_.orders_complete());
     }
 
   private:

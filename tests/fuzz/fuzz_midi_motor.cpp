@@ -55,7 +55,8 @@ class Line final : public ports::SerialPort {
         last_ = event.request;
         // Commands begin only while the link delivers; one that was begun may have ended the link meanwhile.
         const bool stops = last_.index == registers::midi::EMERGENCY_STOP;
-        if (room_ >= kRoom) require(v24::is_query(last_.index) || stops || motor::delivers(driver->link()));
+        if (room_ >= kRoom)
+            require(v24::is_query(last_.index) || stops || motor::link_is_usable(driver->link()));
     }
 
     void say(const auto& bytes) {

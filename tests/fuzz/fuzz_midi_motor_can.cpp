@@ -21,7 +21,7 @@ class Bus final : public ports::CanPort {
         const bool asks = last_.kind == can::Request::Kind::query;
         require(asks || last_.kind == can::Request::Kind::command);
         const bool stops = last_.index == can::kIndices + registers::midi::EMERGENCY_STOP;
-        require(asks || stops || motor::delivers(driver->link()));
+        require(asks || stops || motor::link_is_usable(driver->link()));
         return true;
     }
     bool read(ports::CanFrame& frame) override { return arrivals.take(frame); }

@@ -45,7 +45,7 @@ struct Board final : ports::DigitalInputs,
 
     void poll(base::Instant) override {}
     void begin_orders(base::Instant) override {}
-    bool settled() const override { return true; }
+    bool orders_complete() const override { return true; }
     bool has_room() const override { return true; }
     bool can_execute(const motor::Order&) const override { return true; }
     void send(const motor::Order&) override {}

@@ -88,7 +88,7 @@ class MidiDriverRun {
             const base::Instant due = std::min(driver_.next_poll(now_), end);
             poll(due > now_ ? due - now_ : base::Microseconds(1));
         }
-        require(driver_.settled());
+        require(driver_.orders_complete());
         require(driver_.link() == motor::Link::down);
         require(driver_.error());
         poll(base::Microseconds(0));  // what could not be sent has ended by now
@@ -118,7 +118,7 @@ class MidiDriverRun {
                                                      .reg = static_cast<std::uint8_t>(reg),
                                                      .longword = value % 16 > 8,
                                                      .value = value});
-            require(!taken || motor::delivers(driver_.link()));
+            require(!taken || motor::link_is_usable(driver_.link()));
         }
         poll(base::Microseconds(100));
     }

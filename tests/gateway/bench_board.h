@@ -24,7 +24,7 @@ struct BenchBoard final : ports::DigitalInputs,
 
     void poll(base::Instant) override { ++polls; }
     void begin_orders(base::Instant) override { begun = sent.size() + static_cast<std::size_t>(stops); }
-    bool settled() const override { return is_settled; }
+    bool orders_complete() const override { return is_settled; }
     bool has_room() const override { return room != 0; }
     bool can_execute(const motor::Order& order) const override { return order.reg != missing_register; }
     void send(const motor::Order& order) override {
@@ -38,7 +38,7 @@ struct BenchBoard final : ports::DigitalInputs,
     bool stop_confirmed() const override { return stop_is_confirmed && now >= stop_confirmed_at; }
     void give_up_stop() override { stop_is_confirmed = true; }
     bool begin_access(const motor::Access& wanted) override {
-        if (!motor::delivers(link_state)) return false;
+        if (!motor::link_is_usable(link_state)) return false;
         if (access != motor::AccessState::none && access != motor::AccessState::done &&
             access != motor::AccessState::failed)
             return false;

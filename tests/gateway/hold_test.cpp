@@ -153,7 +153,7 @@ TEST_F(Hold, UntilTheMotorHasTakenTheStopItIsOnItsWay) {
 
 TEST_F(Hold, ALostPartOfTheBoardIsTheSafeStateUntilTheNextStart) {
     start(ordering(kPosition));
-    gateway->withdraw(SafeReason::no_lines, board.now);
+    gateway->lock_and_enter_safe_state(SafeReason::no_lines, board.now);
     run(5ms);
     EXPECT_EQ(gateway->run_state(), RunState::stopped);
     EXPECT_EQ(gateway->safe_reason(), SafeReason::no_lines);

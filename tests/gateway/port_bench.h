@@ -151,7 +151,7 @@ struct PortBench {
     BenchBoard board;
     sim::SimStorage flash{kFlash};
     std::array<std::uint8_t, kTableMemory> memory{};
-    OwnRegisters::Lines shown_lines{};
+    GatewayRegisters::Lines shown_lines{};
     std::optional<SettingsManager> manager;
     std::optional<Controller> controller;
     Gateway* gateway = nullptr;

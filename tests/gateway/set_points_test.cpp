@@ -357,8 +357,8 @@ TEST_F(SetPointsTest, ARefusingStoreLeavesTheOldValues) {
 /// Two ports of one gateway, and of what each asks for the real end.
 struct TwoWriters : SetPointsTest {
     struct Ended {
-        Progress one;
-        Progress two;
+        PendingResult one;
+        PendingResult two;
     };
     SetPoints::Writer writer(reg::Origin origin) const { return {.origin = origin, .since = board.now}; }
     /// The second one comes `delay` polls after the first.
@@ -466,8 +466,8 @@ TEST_F(TwoWriters, ASlowStorageIsWaitedFor) {
     SetPoints::Writer one = writer(reg::Origin::user_port);
     SetPoints::Writer two = writer(reg::Origin::modbus);
     const base::Instant begun = board.now;
-    Progress first_ended = kept.serve(one, first, board.now);
-    Progress second_ended;
+    PendingResult first_ended = kept.serve(one, first, board.now);
+    PendingResult second_ended;
     while (!first_ended && board.now < begun + 60s) {
         poll();
         if (!second_ended) second_ended = kept.serve(two, second, board.now);

@@ -12,7 +12,7 @@ TEST_F(MotorTest, StartsWithSafeCommunicationAndANopInEachPolarity) {
     EXPECT_EQ(driver.link(), Link::starting);
     exchange({0x60, 0x60}, 0x80, 0x00);
     EXPECT_EQ(driver.link(), Link::up);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
 }
 
 TEST_F(MotorTest, StartsFromAnyToggle) {
@@ -42,7 +42,7 @@ TEST_F(MotorTest, ReadsARegisterBetweenOrders) {
     start();
     ASSERT_TRUE(driver.begin_access({.reg = 5}));
     EXPECT_FALSE(driver.begin_access({.reg = 6})) << "one at a time";
-    EXPECT_TRUE(driver.settled()) << "a scan does not wait for it";
+    EXPECT_TRUE(driver.orders_complete()) << "a scan does not wait for it";
     exchange({0x7F, 0x7F}, 0x80, 0x08);
     exchange(kReadV, 0x08, 0x08);
     EXPECT_EQ(driver.access_state(), AccessState::under_way);
@@ -50,7 +50,7 @@ TEST_F(MotorTest, ReadsARegisterBetweenOrders) {
     motor.hear_times(2, 0x88);
     EXPECT_EQ(driver.access_state(), AccessState::done);
     EXPECT_EQ(driver.access_value(), 0x1234U);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     exchange({0x7E, 0x7E, 0x7E}, 0x88, 0x00);
     EXPECT_EQ(driver.counters().accesses, 1U);
     EXPECT_EQ(driver.link(), Link::up);
@@ -124,13 +124,13 @@ TEST_F(MotorTest, OrdersGoOutInOrderWithAlternatingToggle) {
     start();
     for (const int byte : {0x63, 0x15, 0x13, 0x0B, 0x45})
         driver.send(command(static_cast<std::uint8_t>(byte)));
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     exchange({0x63, 0x63}, 0x80, 0x00);
     exchange({0x95, 0x95}, 0x00, 0x80);
     exchange({0x13, 0x13}, 0x80, 0x00);
     exchange({0x8B, 0x8B}, 0x00, 0x80);
     exchange({0x45, 0x45}, 0x80, 0x00);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
 }
 
 TEST_F(MotorTest, AnOrderLeavesWithoutAPollIfTheLineIsFree) {
@@ -160,13 +160,13 @@ TEST_F(MotorTest, InPositionOfBeforeACommandIsNotUsed) {
     motor.hear_times(4, 0x90);
     EXPECT_TRUE(driver.in_position());
     driver.send(command(0x45));
-    EXPECT_FALSE(driver.settled()) << "the scan waits";
+    EXPECT_FALSE(driver.orders_complete()) << "the scan waits";
     motor.hear_times(3, 0x90);  // still the old toggle, still in position
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     motor.hear(0x00);
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     motor.hear(0x00);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_FALSE(driver.in_position());
 }
 
@@ -177,7 +177,7 @@ TEST_F(MotorTest, AMoveThatDoesNotClearInPositionAtOnceReadsZeroForTwoSamplesAnd
     motor.hear_times(4, 0x90);
     motor.hear(0x10);
     motor.hear(0x10);
-    ASSERT_TRUE(driver.settled());
+    ASSERT_TRUE(driver.orders_complete());
     const auto executed = motor.now;
     while (!driver.in_position() && motor.now - executed < base::Milliseconds(50)) motor.hear(0x10);
     EXPECT_TRUE(driver.in_position());
@@ -191,7 +191,7 @@ TEST_F(MotorTest, InPositionFromBeforeAMoveIsNotUsedAfterABurstOfDamage) {
     driver.send(command(0x71));
     motor.hear_times(4, 0x90);
     motor.hear_times(2, 0x10);  // taken, but not worked out yet
-    ASSERT_TRUE(driver.settled());
+    ASSERT_TRUE(driver.orders_complete());
     for (const int damaged : {0x11, 0x30, 0x14, 0x50, 0x12, 0x90, 0x18, 0x00, 0x11, 0x30, 0x14, 0x50}) {
         motor.hear(static_cast<std::uint8_t>(damaged));
         EXPECT_FALSE(driver.in_position());
@@ -265,9 +265,9 @@ TEST_F(MotorTest, ARegisterWriteGoesThroughFlexMacAndBack) {
     driver.send({.is_register_write = true, .reg = 3, .longword = true, .value = 230'000});
     exchange({0x7F, 0x7F}, 0x80, 0x08);
     exchange({0xE0, 0xE0, 0xE0, 0x03, 0xFC, 0x70, 0x8F, 0x82, 0x7D, 0x03, 0xFC, 0x00, 0xFF}, 0x08, 0x88);
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     exchange({0x7E, 0x7E, 0x7E}, 0x88, 0x00);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
 }
 
 TEST_F(MotorTest, WritesInARowStayInFlexMac) {
@@ -280,7 +280,7 @@ TEST_F(MotorTest, WritesInARowStayInFlexMac) {
     exchange({0x60, 0x60, 0x60, 0x06, 0xF9, 0x64, 0x9B, 0x00, 0xFF}, 0x88, 0x08);
     exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
     exchange({0x45, 0x45}, 0x80, 0x00);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
 }
 
 TEST_F(MotorTest, StopDropsTheQueueAndWritesModeRegZero) {
@@ -295,7 +295,7 @@ TEST_F(MotorTest, StopDropsTheQueueAndWritesModeRegZero) {
     exchange({0xFF, 0xFF}, 0x00, 0x88);
     exchange({0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF}, 0x88, 0x08);
     exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_EQ(driver.counters().discarded, 1U);
 }
 
@@ -327,7 +327,7 @@ TEST_F(MotorTest, AFramingErrorSeenHereAsksForSlowTransmissionOnce) {
     start();
     motor.hear(0x80, true);
     exchange({0x73, 0x73}, 0x80, 0x00);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     motor.hear(0x00, true);
     motor.hear_times(10, 0x00);
     EXPECT_TRUE(line.sent.empty());
@@ -369,7 +369,7 @@ TEST_F(MotorTest, MyAddrInPlaceOfAStatusByteUpsetsNothing) {
     motor.hear_times(4, 0x00);
     EXPECT_EQ(driver.link(), Link::up);
     EXPECT_FALSE(driver.error());
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST_F(MotorTest, InPositionFromBeforeAMoveIsNotUsedWhenTheLineHeldItBack) {
     driver.send(command(0x71));
     motor.hear_times(4, 0x90);
     motor.hear_times(2, 0x10);
-    ASSERT_TRUE(driver.settled());
+    ASSERT_TRUE(driver.orders_complete());
     for (int i = 0; i < 31; ++i) motor.silence();
     for (int i = 0; i < 7; ++i) {
         line.received.push_back({0x10, false});

@@ -31,7 +31,7 @@ TEST_F(LostLink, ReadsErrorAndNotInPosition) {
     EXPECT_EQ(driver.link(), Link::down);
     EXPECT_TRUE(driver.error());
     EXPECT_FALSE(driver.in_position());
-    EXPECT_TRUE(driver.settled()) << "the sequence runs on and sees the error";
+    EXPECT_TRUE(driver.orders_complete()) << "the sequence runs on and sees the error";
 }
 
 TEST_F(LostLink, TheLongestSilenceIsASetting) {

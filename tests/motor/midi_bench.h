@@ -69,7 +69,7 @@ class MidiBench {
 
     /// Up, and known to stand.
     void start() {
-        ASSERT_TRUE(until([&] { return driver.link() == Link::up && driver.settled(); }));
+        ASSERT_TRUE(until([&] { return driver.link() == Link::up && driver.orders_complete(); }));
         pass(200ms);
     }
     void order(const Order& order) {
@@ -78,7 +78,7 @@ class MidiBench {
     }
     void order_and_settle(const Order& wanted) {
         order(wanted);
-        ASSERT_TRUE(until([&] { return driver.settled(); }));
+        ASSERT_TRUE(until([&] { return driver.orders_complete(); }));
     }
     bool arrives(sim::Time longest = 20s) {
         return until([&] { return driver.in_position(); }, longest);

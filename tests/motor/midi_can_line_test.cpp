@@ -115,13 +115,13 @@ TEST_F(MidiCanLineTest, ABusThatGoesDownIsKnownAtOnce) {
         bus.state_now = ports::CanState::active;
         run();
         EXPECT_EQ(link.poll(now).kind, Kind::none);
-        EXPECT_EQ(link.trouble(), MidiTrouble::none);
+        EXPECT_EQ(link.trouble(), BusFault::none);
         bus.state_now = state;
         EXPECT_EQ(link.poll(now).kind, Kind::unclear);
-        EXPECT_EQ(link.trouble(), MidiTrouble::no_bus);
+        EXPECT_EQ(link.trouble(), BusFault::no_bus);
         bus.state_now = ports::CanState::active;
         EXPECT_EQ(link.poll(now).kind, Kind::none);
-        EXPECT_EQ(link.trouble(), MidiTrouble::none) << "with no message under way too";
+        EXPECT_EQ(link.trouble(), BusFault::none) << "with no message under way too";
         bus.take();
     }
 }

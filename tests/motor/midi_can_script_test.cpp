@@ -60,7 +60,7 @@ struct MidiCanScriptTest : MidiCanLineTest {
     void start() {
         EXPECT_EQ(until_command(), "");
         ASSERT_EQ(driver.link(), Link::up);
-        EXPECT_TRUE(driver.settled());
+        EXPECT_TRUE(driver.orders_complete());
     }
     /// To one revolution at 600 rpm: 50h a period, 2710h increments.
     void order_move() {
@@ -302,7 +302,7 @@ TEST_F(MidiCanScriptTest, ATrippedModuleThatRefusesStopsToo) {
     for (int i = 0; i < 5 && until_command() == kHardStop; ++i) refuse(kHardStop);
     EXPECT_TRUE(driver.stop_confirmed()) << "its shaft was read at rest";
     EXPECT_TRUE(driver.error());
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     driver.send(fast(kResetError));
     EXPECT_EQ(until_command(), kReset);
     accept(kReset);
@@ -401,7 +401,7 @@ TEST_F(MidiCanScriptTest, AnythingOnTheBus) {
             any.send(word(registers::MODE_REG, 2));
             any.send(longword(registers::P_SOLL, 4'096 * ++orders));
             const bool reads = any.begin_access({.reg = registers::V_IST});
-            EXPECT_TRUE(!reads || delivers(any.link()));
+            EXPECT_TRUE(!reads || link_is_usable(any.link()));
         }
         // Each order at most once, and three times more if it was in doubt.
         EXPECT_LE(moves, 4U * static_cast<std::size_t>(orders));
@@ -410,7 +410,7 @@ TEST_F(MidiCanScriptTest, AnythingOnTheBus) {
             any.poll(now);
         }
         EXPECT_EQ(any.link(), Link::down);
-        EXPECT_TRUE(any.settled());
+        EXPECT_TRUE(any.orders_complete());
     }
 }
 
@@ -432,7 +432,7 @@ TEST_F(UnansweredOrigin, IsNotSetAgainIfThePositionIs0) {
     position = "00 00 00 00";
     EXPECT_EQ(until_command(60), "");
     EXPECT_FALSE(driver.error());
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_EQ(count(kZero), 1U);
 }
 
@@ -443,7 +443,7 @@ TEST_F(UnansweredOrigin, IsSetAgainIfThePositionIsNot0) {
     position = "00 00 00 00";
     EXPECT_EQ(until_command(60), "");
     EXPECT_FALSE(driver.error());
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_EQ(count(kZero), 2U);
 }
 

@@ -26,10 +26,11 @@ class DisturbedRun {
         }
         calm();
         bench_.pass(3s);  // a module may still be deaf
-        EXPECT_TRUE(bench_.until([&] { return delivers(bench_.driver.link()); }, 10s))
+        EXPECT_TRUE(bench_.until([&] { return link_is_usable(bench_.driver.link()); }, 10s))
             << "the link has not come back";
         bench_.driver.send(fast(kResetError));
-        EXPECT_TRUE(bench_.until([&] { return bench_.driver.settled() && !bench_.driver.error(); }, 10s));
+        EXPECT_TRUE(
+            bench_.until([&] { return bench_.driver.orders_complete() && !bench_.driver.error(); }, 10s));
         bench_.driver.send(word(registers::MODE_REG, 0));
         bench_.driver.send(word(registers::V_SOLL, 3'000));
         order_move();
@@ -55,7 +56,7 @@ class DisturbedRun {
   private:
     /// A loss ends what was ordered before it.
     void watch() {
-        const bool up = delivers(bench_.driver.link());
+        const bool up = link_is_usable(bench_.driver.link());
         if (was_up_ && !up) end_all();
         was_up_ = up;
     }
@@ -63,7 +64,7 @@ class DisturbedRun {
         for (const auto& [data, number] : ordered_) ended_.try_emplace(data, bench_.now);
     }
     void begin(std::uint32_t data) {
-        if (delivers(bench_.driver.link())) ordered_[data] = number_;
+        if (link_is_usable(bench_.driver.link())) ordered_[data] = number_;
     }
 
     /// Every motion has a number of its own: a place or a speed.
@@ -81,7 +82,7 @@ class DisturbedRun {
         bench_.driver.send(word(registers::MODE_REG, 1));
     }
     void act() {
-        if (!bench_.driver.settled()) return;
+        if (!bench_.driver.orders_complete()) return;
         switch (dice_() % 6) {
             case 0:
                 end_all();

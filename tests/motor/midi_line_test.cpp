@@ -225,7 +225,7 @@ struct MidiScriptTest : MidiLineTest {
     void start() {
         EXPECT_EQ(until_command(), "");
         EXPECT_EQ(driver.link(), Link::up);
-        EXPECT_TRUE(driver.settled());
+        EXPECT_TRUE(driver.orders_complete());
     }
     void turn() {
         driver.send(word(registers::V_SOLL, 629));  // 503316.48 / 629 = 800.2
@@ -282,7 +282,7 @@ TEST_F(MidiScriptTest, AMotionOfWhichNobodyKnowsIsNotSentAgainWhenTheShaftTurns)
     start();
     turn();
     answer("\x1A");  // the rest of the answer was lost
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     EXPECT_EQ(next(), "00210000000000") << "first a query";
     answer(kNoTrip);
     int place = 0;
@@ -293,7 +293,7 @@ TEST_F(MidiScriptTest, AMotionOfWhichNobodyKnowsIsNotSentAgainWhenTheShaftTurns)
         if (text[3] == '1') answer(kNoTrip);
         if (text[3] == '7') answer(value('7', "00000800"));
     }
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_FALSE(driver.error());
 }
 
@@ -373,7 +373,7 @@ TEST_F(MidiScriptTest, AStopThatIsRefusedBecomesAnEmergencyStop) {
     EXPECT_EQ(until_command(), "00180000000000");
     answer(kDone);
     EXPECT_EQ(until_command(), "");
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_FALSE(driver.error());
 }
 
@@ -412,7 +412,7 @@ TEST_F(MidiScriptTest, SilenceInMidRunIsALostLink) {
     while (driver.link() == Link::up && now < begun + 5s) request();
     EXPECT_EQ(driver.link(), Link::down);
     EXPECT_LT(now - begun, 500ms);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_FALSE(driver.in_position());
     driver.send(word(registers::V_SOLL, 800));
     EXPECT_EQ(driver.counters().discarded, 1U);

@@ -180,7 +180,7 @@ TEST_P(MidiMotorTest, StopComesBeforeEverythingElse) {
     bench.order(longword(registers::P1, 4'096));
     bench.order(fast(kPositionP1));
     driver.stop();
-    ASSERT_TRUE(bench.until([&] { return driver.settled(); }));
+    ASSERT_TRUE(bench.until([&] { return driver.orders_complete(); }));
     EXPECT_EQ(bench.count(midi::STOP), 1U);
     EXPECT_TRUE(bench.until([&] { return !module.moving(); }, 1s));
     bench.pass(1s);
@@ -342,13 +342,13 @@ TEST_P(MidiMotorTest, LostInMidMove) {
     ASSERT_TRUE(bench.until([&] { return driver.link() == Link::down; }, 1s));
     EXPECT_TRUE(driver.error());
     EXPECT_EQ(driver.fault(), MidiFault::link_lost);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     bench.order(fast(kPositionP1));
     driver.stop();
     bench.pass(1s);
     bench.drive.cut(false);
     ASSERT_TRUE(bench.until([&] { return driver.link() == Link::unacknowledged; }, 1s));
-    ASSERT_TRUE(bench.until([&] { return driver.settled(); }, 1s));
+    ASSERT_TRUE(bench.until([&] { return driver.orders_complete(); }, 1s));
     EXPECT_EQ(bench.drive.module().actions().back().number, midi::EMERGENCY_STOP);
     EXPECT_TRUE(driver.error());
     bench.pass(1s);

@@ -43,7 +43,7 @@ struct MotorTest : testing::Test {
         motor.hear_times(2, 0x80);
         come_up(0x80);
         ASSERT_EQ(driver.link(), Link::up);
-        ASSERT_TRUE(driver.settled());
+        ASSERT_TRUE(driver.orders_complete());
     }
 };
 

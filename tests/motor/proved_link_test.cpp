@@ -20,7 +20,7 @@ struct ProvedLink : MotorTest {
     }
     /// It may look at the line anew meanwhile, and finds what never changes.
     void expect_lost() {
-        EXPECT_FALSE(delivers(driver.link()));
+        EXPECT_FALSE(link_is_usable(driver.link()));
         EXPECT_TRUE(driver.error());
         EXPECT_FALSE(driver.in_position());
         EXPECT_EQ(driver.counters().link_losses, 1U);
@@ -72,7 +72,7 @@ TEST_F(ProvedLink, InPositionStaysWhileItIsAsked) {
     for (int i = 0; i < 40 && line.sent.empty(); ++i) motor.hear(0x90);
     EXPECT_EQ(line.take(), (Bytes{0x60, 0x60}));
     EXPECT_TRUE(driver.in_position());
-    EXPECT_TRUE(driver.settled()) << "a scan does not wait for it";
+    EXPECT_TRUE(driver.orders_complete()) << "a scan does not wait for it";
     motor.hear_times(3, 0x10);
     EXPECT_TRUE(driver.in_position());
 }
@@ -82,11 +82,11 @@ TEST_F(ProvedLink, AnOrderWaitsAtMostForItsEcho) {
     for (int i = 0; i < 40 && line.sent.empty(); ++i) motor.hear(0x80);
     ASSERT_EQ(line.take(), (Bytes{0x60, 0x60}));
     driver.send(command(0x41));
-    EXPECT_FALSE(driver.settled());
+    EXPECT_FALSE(driver.orders_complete());
     motor.hear_times(2, 0x80);
     EXPECT_TRUE(line.sent.empty());
     exchange({0xC1, 0xC1}, 0x00, 0x80);
-    EXPECT_TRUE(driver.settled());
+    EXPECT_TRUE(driver.orders_complete());
     EXPECT_EQ(driver.counters().orders, 1U) << "the NOP is no order";
 }
 

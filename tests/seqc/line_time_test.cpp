@@ -134,7 +134,7 @@ Measured measure(const std::vector<MotorOrder>& orders, bool safe, std::uint32_t
     if (!run_until([&] { return !world.on_their_way().empty() || world.gateway().state().step == 2; }))
         return measured;
     const Time begin = world.now();
-    if (!run_until([&] { return world.gateway().state().step == 2 && world.driver().settled(); }))
+    if (!run_until([&] { return world.gateway().state().step == 2 && world.driver().orders_complete(); }))
         return measured;
     measured.done = world.now() - begin;
     measured.characters = world.line().to_motor().counters().sent - sent;

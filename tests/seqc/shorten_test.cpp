@@ -61,10 +61,10 @@ TEST(Shorten, RandomStepsDoWhatTheRulesSay) {
         const StepPlan step = random_step(random);
         std::vector<LoweredTerm> terms;
         bool complete = true;
-        for (const ReducedStep& half : halves_of(step, kOutputs)) {
-            const std::vector<LoweredTerm> own = shorten(half, 1'000);
+        for (const ReducedStep& error_branch : error_branches_of(step, kOutputs)) {
+            const std::vector<LoweredTerm> own = shorten(error_branch, 1'000);
             bool needs_terms = false;
-            for (const Behaviour& behaviour : half.behaviours) {
+            for (const Behaviour& behaviour : error_branch.behaviours) {
                 needs_terms = needs_terms || behaviour.writes || behaviour.sends() != 0 ||
                               behaviour.timer() != 0 || behaviour.counter() != 0;
             }

@@ -217,7 +217,7 @@ TEST_P(StopConfirmation, IsNeededForTheSafeStateAndForAHold) {
     turn();
     lose(false, true, 1);
     run_for(100ms);
-    world.controller().sequence().make_safe(world.instant());
+    world.controller().sequence().enter_safe_state_by_command(world.instant());
     run_for(1s);
     EXPECT_TRUE(controller().stop_unconfirmed());
     EXPECT_EQ(reg(MODE_REG), 0);

@@ -245,7 +245,7 @@ TEST_F(WorldRun, OrdersThatAreGivenUpAreNotOnTheirWay) {
     ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 3s));
     EXPECT_EQ(world_.on_their_way(), (std::deque<std::size_t>{4, 5, 6, 7}));
     world_.cut_line(true);
-    ASSERT_TRUE(run_until([&] { return !motor::delivers(world_.driver().link()); }, 6s));
+    ASSERT_TRUE(run_until([&] { return !motor::link_is_usable(world_.driver().link()); }, 6s));
     EXPECT_TRUE(world_.on_their_way().empty());
 }
 

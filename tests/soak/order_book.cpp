@@ -14,7 +14,7 @@ void OrderBook::say(const std::string& what, const sim::SentOrder& order) {
 /// Called when the driver has it. While the link delivers it was not this one that was discarded.
 void OrderBook::ordered(const sequencer::MotorOrder& order) {
     const sim::SentOrder sent{order.is_register_write, order.command, order.reg, order.value};
-    if (motor::delivers(world_.driver().link())) settle();
+    if (motor::link_is_usable(world_.driver().link())) settle();
     entries_.push_back({sent, world_.now(), sim::concerns_the_link_only(sent)});
     open_.push_back(given_++);
 }
@@ -40,7 +40,7 @@ OrderBook::Entry* OrderBook::find(const sim::SentOrder& order) {
 bool OrderBook::is_part_of_blind_stop(const sim::SentOrder& order) const {
     constexpr Time kUntilTheNext = std::chrono::milliseconds{60};
     return switched_on_ && world_.now() - *switched_on_ < kUntilTheNext &&
-           !motor::delivers(world_.driver().link()) && !order.is_register_write &&
+           !motor::link_is_usable(world_.driver().link()) && !order.is_register_write &&
            (order.command == 0x00 || order.command == 0x02);
 }
 

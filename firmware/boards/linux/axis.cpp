@@ -51,7 +51,7 @@ void Axis::begin(base::Instant now) {
     tell_stored_settings();
     start(now);
     if (!is_complete()) {
-        controller_->sequence().withdraw(missing_reason(), now);
+        controller_->sequence().lock_and_enter_safe_state(missing_reason(), now);
         try_at_ = now + kBetweenTries;
     } else {
         try_at_ = base::kNever;
@@ -132,7 +132,7 @@ void Axis::start(base::Instant now) {
     sequence.pace(kPace);
     block_start();
     if (missing_.store.empty()) load_table(now);
-    if (!store_.is_marked()) sequence.withdraw(SafeReason::bad_run_mark, now);
+    if (!store_.is_marked()) sequence.lock_and_enter_safe_state(SafeReason::bad_run_mark, now);
 }
 
 void Axis::block_start() {
@@ -184,7 +184,7 @@ void Axis::note_running(base::Instant now) {
     const std::string error = store_.mark_running();
     if (error.empty()) return;
     journal_.write(LogLevel::error, error + "; make room, or mend it, and restart the service");
-    controller_->sequence().withdraw(SafeReason::bad_run_mark, now);
+    controller_->sequence().lock_and_enter_safe_state(SafeReason::bad_run_mark, now);
 }
 
 /// A run waits for it before its first scan; one that was stopped meanwhile has been commanded all the same.
@@ -200,7 +200,7 @@ void Axis::give_permission(base::Instant now) {
     if (sequence.wants_mark()) sequence.refuse_run_mark();
 }
 
-void Axis::note_orderly_end() {
+void Axis::mark_clean_shutdown() {
     if (const std::string error = store_.mark_ended(); !error.empty())
         journal_.write(LogLevel::warning, error + "; the next start waits for `nanoctl run`");
 }
@@ -295,7 +295,7 @@ void Axis::watch_pins(base::Instant now) {
         LogLevel::error,
         "SAFE: a GPIO chip is gone; its lines read 0 and nothing can be switched; `nanoctl reset` when it is "
         "back");
-    controller_->sequence().withdraw(SafeReason::no_lines, now);
+    controller_->sequence().lock_and_enter_safe_state(SafeReason::no_lines, now);
 }
 
 base::Instant Axis::next(base::Instant now) {
@@ -309,8 +309,8 @@ base::Instant Axis::next(base::Instant now) {
     return next;
 }
 
-void Axis::begin_end(base::Instant now) {
-    controller_->sequence().make_safe(now);
+void Axis::begin_shutdown(base::Instant now) {
+    controller_->sequence().enter_safe_state_by_command(now);
 }
 
 bool Axis::has_stopped() const {
@@ -324,7 +324,7 @@ void Axis::write_safe_outputs() {
 std::string Axis::state_in_words() const {
     using gateway::RunState;
     const bool is_safe = controller_->sequence().safe_reason() != SafeReason::none;
-    const char* const link = motor::delivers(motor_.driver().link()) ? "" : ", no motor";
+    const char* const link = motor::link_is_usable(motor_.driver().link()) ? "" : ", no motor";
     switch (controller_->sequence().run_state()) {
         case RunState::stopped:
             return fmt::format("{} stopped{}{}", config_.name, is_complete() ? "" : ", incomplete", link);

@@ -47,14 +47,16 @@ class Axis {
     base::Instant next(base::Instant now);
 
     /// Orderly shutdown: outputs safe, motor told to stop; then call serve() until has_stopped().
-    void begin_end(base::Instant now);
+    void begin_shutdown(base::Instant now);
     bool has_stopped() const;
-    bool motor_answers() const { return motor_.has_driver() && motor::delivers(motor_.driver().link()); }
+    bool motor_answers() const {
+        return motor_.has_driver() && motor::link_is_usable(motor_.driver().link());
+    }
     /// From now on a disorderly end counts as a crash; a start that failed before does not. An axis that
     /// cannot be marked does not run.
     void note_running(base::Instant now);
     /// The end was orderly: the next start is not one after a crash.
-    void note_orderly_end();
+    void mark_clean_shutdown();
     /// The motor has not confirmed the stop: the next start is one after a crash, in whichever boot.
     void note_unstopped_end();
 
@@ -117,7 +119,7 @@ class Axis {
     AxisStore store_{journal_, config_.name};
     AxisPins pins_;
     MotorPart motor_;
-    std::optional<ReopenedUart> mactalk_port_;
+    std::optional<ReconnectingUart> mactalk_port_;
     UserConnection user_{journal_};
     AxisReporter reporter_{journal_};
     std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};

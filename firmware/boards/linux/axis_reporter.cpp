@@ -91,21 +91,21 @@ void AxisReporter::report_drops(gateway::Controller& controller) {
 
 void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
     const motor::Link link = motor.driver().link();
-    if (motor::delivers(link)) tell_silence_at_ = base::kNever;
+    if (motor::link_is_usable(link)) tell_silence_at_ = base::kNever;
     if (now >= tell_silence_at_) {
         tell_silence_at_ = base::kNever;
         journal_.write(LogLevel::warning, motor.silence_in_words(), {{"EVENT", "motor_silent"}});
     }
     if (const auto count = link_messages_.count(now))
         journal_.write(LogLevel::warning, *count, {{"EVENT", "motor_lost"}});
-    if (motor::delivers(link) == motor::delivers(told_link_)) return;
+    if (motor::link_is_usable(link) == motor::link_is_usable(told_link_)) return;
     told_link_ = link;
-    if (motor::delivers(link))
+    if (motor::link_is_usable(link))
         link_messages_.back();
     else
         link_messages_.lost(now);
     if (!link_messages_.writes_whole()) return;
-    if (motor::delivers(link))
+    if (motor::link_is_usable(link))
         journal_.write(LogLevel::notice, "the motor answers on " + motor.line_in_words(),
                        {{"EVENT", "motor_answers"}});
     else

@@ -12,7 +12,7 @@ constexpr base::Milliseconds kBetweenTriesToOpen{250};
 
 }  // namespace
 
-std::string ReopenedUart::open(const std::string& who, const hal_linux::UartSettings& settings) {
+std::string ReconnectingUart::open(const std::string& who, const hal_linux::UartSettings& settings) {
     who_ = who;
     path_ = settings.path;
     uart_.reset();  // the port is held exclusively
@@ -22,7 +22,7 @@ std::string ReopenedUart::open(const std::string& who, const hal_linux::UartSett
     return problem_;
 }
 
-bool ReopenedUart::look(Journal& journal, base::Instant now) {
+bool ReconnectingUart::look(Journal& journal, base::Instant now) {
     if (!uart_->gone()) return false;
     if (retry_at_ == base::kNever) {
         tell(journal, problem_.empty() ? path_ + " is gone; plug the adapter in again" : problem_);
@@ -40,7 +40,7 @@ bool ReopenedUart::look(Journal& journal, base::Instant now) {
     return false;
 }
 
-void ReopenedUart::tell(Journal& journal, const std::string& problem) {
+void ReconnectingUart::tell(Journal& journal, const std::string& problem) {
     journal.write(LogLevel::error, who_ + ": " + problem);
 }
 
@@ -55,7 +55,7 @@ CanState without_degrees(CanState state) {
 
 }  // namespace
 
-void ReopenedCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
+void ReconnectingCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
     who_ = who;
     interface_ = settings.interface;
     can_ = hal_linux::SocketCan::absent(settings);
@@ -63,7 +63,7 @@ void ReopenedCan::open(const std::string& who, const hal_linux::CanSettings& set
     problem_ = can_->reopen();
 }
 
-void ReopenedCan::look(Journal& journal, base::Instant now) {
+void ReconnectingCan::look(Journal& journal, base::Instant now) {
     tell_state(journal);
     tell_problem(journal);
     if (!can_->gone()) {
@@ -78,7 +78,7 @@ void ReopenedCan::look(Journal& journal, base::Instant now) {
         journal.write(LogLevel::error, fmt::format("{}: {}", who_, problem_));
 }
 
-void ReopenedCan::tell_problem(Journal& journal) {
+void ReconnectingCan::tell_problem(Journal& journal) {
     if (can_->state() != CanState::bus_off || can_->restart_problem().empty() ||
         can_->restart_problem() == told_problem_)
         return;
@@ -86,7 +86,7 @@ void ReopenedCan::tell_problem(Journal& journal) {
     journal.write(LogLevel::info, fmt::format("{}: {}", who_, told_problem_));
 }
 
-void ReopenedCan::tell_state(Journal& journal) {
+void ReconnectingCan::tell_state(Journal& journal) {
     if (can_->gone() != told_gone_) {
         told_gone_ = can_->gone();
         if (!told_gone_)

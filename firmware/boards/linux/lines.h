@@ -13,7 +13,7 @@
 namespace nplc::boards {
 
 /// A serial port that is reopened after its adapter was unplugged, or was not present at the start.
-class ReopenedUart {
+class ReconnectingUart {
   public:
     /// Empty, or a one-line error: then the port is missing until look() finds it.
     std::string open(const std::string& who, const hal_linux::UartSettings& settings);
@@ -36,7 +36,7 @@ class ReopenedUart {
 
 /// A CAN interface that is reopened after its adapter was unplugged, or was not present at the start. Logs
 /// its state changes; its user restarts it when it is bus-off.
-class ReopenedCan {
+class ReconnectingCan {
   public:
     /// An interface that is down can be opened; one that cannot be opened is missing until look() finds it.
     void open(const std::string& who, const hal_linux::CanSettings& settings);

@@ -85,7 +85,7 @@ void MotorPart::open_line(base::Instant now) {
 }
 
 bool MotorPart::needs_no_watch() const {
-    return line_ && motor::delivers(motor_->link()) && motor_->settled() &&
+    return line_ && motor::link_is_usable(motor_->link()) && motor_->orders_complete() &&
            !motor::is_open(motor_->access_state()) && !uart_->gone();
 }
 

@@ -48,8 +48,8 @@ class MotorPart {
 
   private:
     MotorConfig config_;
-    std::optional<ReopenedUart> uart_;
-    std::optional<ReopenedCan> can_;
+    std::optional<ReconnectingUart> uart_;
+    std::optional<ReconnectingCan> can_;
     std::optional<GatedPort> line_;
     motor::AnyDriver driver_;
     motor::Motor* motor_ = nullptr;

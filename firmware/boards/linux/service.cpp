@@ -170,7 +170,7 @@ void Service::end_in_order() {
     service_->stopping();
     const base::Instant now = clock_.now();
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        axes_[i]->begin_end(now);
+        axes_[i]->begin_shutdown(now);
         next_[i] = now;
     }
     const base::Instant limit = now + kLongestEnd;
@@ -180,7 +180,7 @@ void Service::end_in_order() {
     } while (clock_.now() < limit && !std::all_of(axes_.begin(), axes_.end(), stopped));
     for (const auto& axis : axes_) {
         if (axis->has_stopped()) {
-            axis->note_orderly_end();
+            axis->mark_clean_shutdown();
             continue;
         }
         tell_unstopped(*axis, axis->motor_answers() ? "has not confirmed the stop"

@@ -42,7 +42,7 @@ class UserConnection {
     std::string open_serial_port(const AxisConfig& config, std::uint32_t stored_baud);
 
     AxisJournal& journal_;
-    std::optional<ReopenedUart> uart_;
+    std::optional<ReconnectingUart> uart_;
     std::optional<UserServer> server_;  ///< on uart_ where there is one
     unsigned told_wrong_passwords_ = 0;
     unsigned told_turned_away_ = 0;

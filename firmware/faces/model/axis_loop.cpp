@@ -97,7 +97,7 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     follow_stops(controller);
     serve_change(controller);
     take_others(controller);
-    if (motor::delivers(controller.motor().link())) {
+    if (motor::link_is_usable(controller.motor().link())) {
         image_.motor_contact = wall;
         image_.had_contact = true;
     }
@@ -200,7 +200,7 @@ void AxisLoop::drop(gateway::Controller& controller) {
 
 /// A stop of the user port between two polls, or of a face.
 void AxisLoop::look_for_stops(gateway::Controller& controller) {
-    gateway::OwnRegisters& own = controller.registers();
+    gateway::GatewayRegisters& own = controller.registers();
     const std::uint8_t writes = own.writes_begun();
     if (writes != writes_seen_.value_or(writes) && own.written() == gw::COMMAND) {
         std::array<std::uint8_t, 4> bytes{};
@@ -337,7 +337,7 @@ void AxisLoop::begin_change(gateway::Controller& controller) {
 void AxisLoop::serve_change(gateway::Controller& controller) {
     if (!change_ || change_ended_) return;
     const Command& command = change_->command;
-    const gateway::Progress progress =
+    const gateway::PendingResult progress =
         controller.set_points().serve(change_writer_, std::span(command.data).first(command.size), now_);
     if (!progress) return;
     change_ended_ = completion_of(progress.word());
@@ -364,7 +364,7 @@ void AxisLoop::begin_motor(gateway::Controller& controller) {
         return reset_drive(controller);
     const bool longword =
         resets ? registers::bytes_of(model, *registers::find(model, command.reg)) == 4 : command.longword;
-    if (!motor::delivers(controller.motor().link())) {
+    if (!motor::link_is_usable(controller.motor().link())) {
         ended_ = Completion{.result = Result::link_down};
     } else if (!controller.user_port().motor_allows(motor_request(command))) {
         ended_ = Completion{.result = Result::not_allowed};
@@ -420,13 +420,13 @@ void AxisLoop::clear_error() {
 
 /// RESULT stays that of the user port.
 void AxisLoop::go_on_own(gateway::Controller& controller) {
-    gateway::OwnRegisters& own = controller.registers();
+    gateway::GatewayRegisters& own = controller.registers();
     if (own.writes_begun() != own_write_) {
         ended_ = Completion{.result = Result::too_late};
         return;
     }
     const std::uint32_t result = own.result();
-    const gateway::Progress progress =
+    const gateway::PendingResult progress =
         own.poll_write(std::span(work_->command.data).first(work_->command.size), now_);
     if (!progress) return;
     own.set_result(result);
@@ -435,10 +435,10 @@ void AxisLoop::go_on_own(gateway::Controller& controller) {
 
 /// Executes a stop, which ends at once.
 Completion AxisLoop::write_own(gateway::Controller& controller, const Command& command) {
-    gateway::OwnRegisters& own = controller.registers();
+    gateway::GatewayRegisters& own = controller.registers();
     const std::uint32_t result = own.result();
     own.begin_write(command.reg, bytes_of(command.value), now_);
-    const gateway::Progress progress = own.poll_write({}, now_);
+    const gateway::PendingResult progress = own.poll_write({}, now_);
     own.set_result(result);
     return completion_of(progress.word());
 }
@@ -461,7 +461,7 @@ void AxisLoop::report() {
 }
 
 void AxisLoop::take_image(gateway::Controller& controller) {
-    gateway::OwnRegisters& own = controller.registers();
+    gateway::GatewayRegisters& own = controller.registers();
     std::array<std::uint8_t, 128> bytes{};
     for (const Range& range : kImaged) {
         own.read(range.first, std::span(bytes).first(std::size_t{4} * range.count), now_);

@@ -72,7 +72,7 @@ base::Microseconds MotorReader::pause(const gateway::Controller& controller) con
 
 MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Instant now) {
     if (!begun_) begun_ = now;
-    if (!motor::delivers(controller.motor().link()) || now - *begun_ > kLongest) {
+    if (!motor::link_is_usable(controller.motor().link()) || now - *begun_ > kLongest) {
         drop(controller);
         return State::failed;
     }

@@ -2,7 +2,7 @@
 // instructions.
 
 #include "gateway/gateway.h"
-#include "gateway/own_registers.h"
+#include "gateway/gateway_registers.h"
 #include "gateway/user_port.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
@@ -94,7 +94,7 @@ struct BlankStorage final : ports::Storage {
 struct ReadyMotor final : motor::Motor {
     void poll(base::Instant) override {}
     void begin_orders(base::Instant) override {}
-    bool settled() const override { return true; }
+    bool orders_complete() const override { return true; }
     bool can_execute(const motor::Order&) const override { return true; }
     bool has_room() const override { return true; }
     void send(const motor::Order&) override {}
@@ -204,7 +204,7 @@ void count_user_bytes() {
     static gateway::SetPointsPart set_points(sequence, storage, nullptr);
     static gateway::TableManager tables(sequence, drive, set_points, storage,
                                         {.begin = 0, .slot_bytes = 8 * 1024}, table_bytes);
-    static gateway::OwnRegisters registers(sequence, tables, set_points, settings, {});
+    static gateway::GatewayRegisters registers(sequence, tables, set_points, settings, {});
     static gateway::UserPort port(&line, nullptr, sequence, drive, registers, settings);
     tables.mount();
     base::Instant now{base::Milliseconds(1000)};

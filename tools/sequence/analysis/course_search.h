@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "concretize.h"
 #include "conflict.h"
-#include "realize.h"
 
 /// Courses of an exploration without times, for questions whose first course no times fit: each is the
 /// shortest that is not excluded.

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "guaranteed_reachability.h"
 #include "monitor.h"
 #include "preset_values.h"
-#include "surely.h"
 
 namespace nplc::verify {
 namespace {
@@ -43,7 +43,7 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
     if (options.assume == Assume::driver) stable_ms_.fill(options.debounce_ms);
     for (const Assumption& assumption : options.assumptions)
         stable_ms_[assumption.input] = std::max(stable_ms_[assumption.input], assumption.stable_ms);
-    // surely.h counts on 3 ms of debounce, or on the driver's debounce time.
+    // guaranteed_reachability.h counts on 3 ms of debounce, or on the driver's debounce time.
     const std::uint32_t each_ms = options.assume == Assume::driver ? options.debounce_ms : 3;
     for (std::size_t input = 0; input < stable_ms_.size(); ++input)
         held_ |= static_cast<std::uint8_t>(stable_ms_[input] > each_ms ? 1U << input : 0U);
@@ -58,12 +58,12 @@ Decider::Attempted Decider::attempted(const Way& way) const {
     for (std::vector<ChosenPreset>& presets : choices_for(machine_, way.scans)) {
         const std::vector<std::uint8_t> bytes = bytes_with(table_, presets);
         const sequencer::Table::LoadResult with_values = sequencer::Table::load(bytes);
-        Attempt attempt = realize({.table = with_values.table,
-                                   .assume = options_.assume,
-                                   .stable_ms = stable_ms_,
-                                   .move_ms = machine_.move_ms(),
-                                   .presets = presets},
-                                  way.scans, way.overdue);
+        Attempt attempt = concretize({.table = with_values.table,
+                                      .assume = options_.assume,
+                                      .stable_ms = stable_ms_,
+                                      .move_ms = machine_.move_ms(),
+                                      .presets = presets},
+                                     way.scans, way.overdue);
         if (attempt.course) {
             result.played = Played{.course = std::move(*attempt.course), .presets = std::move(presets)};
             return result;

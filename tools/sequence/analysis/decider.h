@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "analysis/verify.h"
+#include "concretize.h"
 #include "course_search.h"
 #include "explorer.h"
-#include "realize.h"
 
 namespace nplc::verify {
 

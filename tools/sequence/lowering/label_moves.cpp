@@ -21,11 +21,11 @@ constexpr std::uint8_t kAnyTimer = kNamedTimer | kUnnamedTimer;
 constexpr std::uint8_t kAnyCounter = kNamedCounter | kUnnamedCounter;
 
 /// Inlined because it is evaluated for every cube.
-inline std::uint8_t kinds_in(OpenBits open, const OpenLayout& layout, bool unnamed_help) {
+inline std::uint8_t kinds_in(RemainingEffects open, const OpenLayout& layout, bool unnamed_help) {
     if (!at_most_one(open & layout.outputs)) return 0;
     const bool named = at_most_one(open & layout.nexts);
     if (!named && !unnamed_help) return 0;
-    const auto presets = [&](OpenBits group, OpenBits none) {
+    const auto presets = [&](RemainingEffects group, RemainingEffects none) {
         return (open & none) == 0 && (open & group) != 0 && at_most_one(open & group);
     };
     unsigned kinds = (open & (named ? layout.nexts | layout.outputs : layout.outputs)) != 0 ? kNamed : 0;
@@ -36,12 +36,12 @@ inline std::uint8_t kinds_in(OpenBits open, const OpenLayout& layout, bool unnam
 
 }  // namespace
 
-LabelSearch::Kinds LabelSearch::kinds_of(OpenBits open) const {
+LabelSearch::Kinds LabelSearch::kinds_of(RemainingEffects open) const {
     return kinds_in(open, layout_, unnamed_help_);
 }
 
-OpenBits LabelSearch::cleared_by(Kinds kind) const {
-    OpenBits bits = layout_.outputs;
+RemainingEffects LabelSearch::cleared_by(Kinds kind) const {
+    RemainingEffects bits = layout_.outputs;
     if ((kind & kAnyNamed) != 0) bits |= layout_.nexts;
     if ((kind & kAnyTimer) != 0) bits |= layout_.timers;
     if ((kind & kAnyCounter) != 0) bits |= layout_.counters;
@@ -53,7 +53,7 @@ void LabelSearch::survey(const State& state) {
     const std::size_t size = cubes_.size();
     const std::size_t points = std::size_t{1} << inputs();
     for (std::size_t zeros = 0; zeros < layers_; ++zeros) {
-        OpenBits* layer = &masks_[zeros * size];
+        RemainingEffects* layer = &masks_[zeros * size];
         for (std::size_t point = 0; point < points; ++point)
             layer[cubes_.point(point)] = state.open[zeros * points + point];
         cubes_.unite(layer);
@@ -151,12 +151,12 @@ void LabelSearch::place(State& state, const Region& region, Kinds kind, const Or
         path_.push_back(term);
         return;
     }
-    const OpenBits cleared = cleared_by(kind);
+    const RemainingEffects cleared = cleared_by(kind);
     const CaseSet cases = set_of(region);
     bool first = true;
     cases.for_each([&](std::size_t c) {
-        const Behaviour& wanted = half_.at(c);
-        const OpenBits open = state.open[c];
+        const Behaviour& wanted = error_branch_.at(c);
+        const RemainingEffects open = state.open[c];
         if (first || (open & layout_.nexts) != 0) term.next = wanted.next;
         if (first || (open & layout_.outputs) != 0) term.output_byte = wanted.output_byte();
         if (term.preset == Preset::timer && (first || (open & layout_.timers) != 0))
@@ -197,7 +197,7 @@ bool LabelSearch::may_place(const State& state, const Item& item) const {
         if (state.placed[later] == 0) return false;
     }
     if (!item.term->is_fast()) return true;
-    OpenBits open = 0;
+    RemainingEffects open = 0;
     item.cases.for_each([&](std::size_t c) { open |= state.open[c]; });
     return at_most_one(open & layout_.outputs) && at_most_one(open & layout_.nexts);
 }

@@ -6,30 +6,31 @@
 namespace nplc::seqc {
 
 template <class T>
-OpenBits OpenLayout::bit_for(std::vector<T>& seen, std::vector<OpenBits>& bits, T value, OpenBits& group) {
+RemainingEffects OpenLayout::bit_for(std::vector<T>& seen, std::vector<RemainingEffects>& bits, T value,
+                                     RemainingEffects& group) {
     const auto found = std::find(seen.begin(), seen.end(), value);
     if (found != seen.end()) return bits[static_cast<std::size_t>(found - seen.begin())];
     fits_ = fits_ && used_ < 62;
-    const OpenBits bit = OpenBits{1} << (fits_ ? used_++ : 0);
+    const RemainingEffects bit = RemainingEffects{1} << (fits_ ? used_++ : 0);
     seen.push_back(value);
     bits.push_back(bit);
     group |= bit;
     return bit;
 }
 
-OpenLayout::OpenLayout(const ReducedStep& half) {
+OpenLayout::OpenLayout(const ReducedStep& error_branch) {
     std::vector<std::uint8_t> next_values;
     std::vector<std::uint8_t> output_values;
     std::vector<std::uint16_t> timer_values;
     std::vector<std::uint16_t> counter_values;
-    std::array<std::vector<OpenBits>, 4> bits;
-    no_timer = OpenBits{1} << 62;
-    no_counter = OpenBits{1} << 63;
-    for (const Behaviour& behaviour : half.behaviours) {
-        const OpenBits next = bit_for(next_values, bits[0], behaviour.next, nexts);
-        const OpenBits output = bit_for(output_values, bits[1], behaviour.output_byte(), outputs);
-        OpenBits presets = 0;
-        OpenBits none = no_timer | no_counter;
+    std::array<std::vector<RemainingEffects>, 4> bits;
+    no_timer = RemainingEffects{1} << 62;
+    no_counter = RemainingEffects{1} << 63;
+    for (const Behaviour& behaviour : error_branch.behaviours) {
+        const RemainingEffects next = bit_for(next_values, bits[0], behaviour.next, nexts);
+        const RemainingEffects output = bit_for(output_values, bits[1], behaviour.output_byte(), outputs);
+        RemainingEffects presets = 0;
+        RemainingEffects none = no_timer | no_counter;
         if (behaviour.timer() != 0) {
             presets |= bit_for(timer_values, bits[2], behaviour.timer(), timers);
             none &= ~no_timer;
@@ -53,11 +54,14 @@ constexpr std::size_t kMostClasses = 16;
 
 }  // namespace
 
-LabelSearch::LabelSearch(const ReducedStep& half, const OrderPlan& plan)
-    : half_(half), cubes_(Ternary::of(half.inputs)), layout_(half), layers_(half.cases() >> half.inputs) {
+LabelSearch::LabelSearch(const ReducedStep& error_branch, const OrderPlan& plan)
+    : error_branch_(error_branch),
+      cubes_(Ternary::of(error_branch.inputs)),
+      layout_(error_branch),
+      layers_(error_branch.cases() >> error_branch.inputs) {
     std::vector<std::pair<std::uint8_t, std::uint8_t>> seen;
     std::vector<std::size_t> class_of;
-    for (const Behaviour& behaviour : half.behaviours) {
+    for (const Behaviour& behaviour : error_branch.behaviours) {
         const std::pair key{behaviour.next, behaviour.output_byte()};
         const auto found = std::find(seen.begin(), seen.end(), key);
         class_of.push_back(static_cast<std::size_t>(found - seen.begin()));
@@ -67,18 +71,18 @@ LabelSearch::LabelSearch(const ReducedStep& half, const OrderPlan& plan)
     }
     unnamed_help_ = unnamed_help_ && !at_most_one(layout_.outputs);
 
-    const CaseSet none(half.cases());
+    const CaseSet none(error_branch.cases());
     classes_.assign(seen.size(), none);
     start_.nexts = start_.outputs = start_.timers = start_.counters = none;
-    for (std::size_t c = 0; c < half.cases(); ++c) {
-        classes_[class_of[half.wanted[c]]].insert(c);
-        const OpenBits open = layout_.wanted(half.wanted[c]);
+    for (std::size_t c = 0; c < error_branch.cases(); ++c) {
+        classes_[class_of[error_branch.wanted[c]]].insert(c);
+        const RemainingEffects open = layout_.wanted(error_branch.wanted[c]);
         start_.open.push_back(open);
         start_.nexts.insert(c);
         start_.outputs.insert(c);
         if ((open & layout_.timers) != 0) start_.timers.insert(c);
         if ((open & layout_.counters) != 0) start_.counters.insert(c);
-        demanded_.push_back(layout_.demanded(half.wanted[c]));
+        demanded_.push_back(layout_.demanded(error_branch.wanted[c]));
     }
     for (const OrderTerm& term : plan) items_.push_back({&term, set_of(term.region), {}});
     for (std::uint32_t i = 0; i < items_.size(); ++i) {
@@ -135,9 +139,11 @@ std::size_t LabelSearch::bound(const State& state) const {
     for (std::size_t i = 0; i < items_.size() && state.left != 0; ++i) {
         if (state.placed[i] == 0 && items_[i].term->is_fast()) open.remove(items_[i].cases);
     }
-    OpenBits bits = 0;
+    RemainingEffects bits = 0;
     open.for_each([&](std::size_t c) { bits |= state.open[c] & demanded_[c]; });
-    const auto count = [&](OpenBits group) { return static_cast<std::size_t>(std::popcount(bits & group)); };
+    const auto count = [&](RemainingEffects group) {
+        return static_cast<std::size_t>(std::popcount(bits & group));
+    };
     return std::max({count(layout_.nexts), count(layout_.outputs), count(layout_.timers | layout_.counters)});
 }
 
@@ -222,11 +228,11 @@ bool LabelSearch::search(const State& state, std::size_t most, std::size_t depth
 
 /// All demanded cases are in one region; the smallest such region is most likely uniform.
 bool LabelSearch::finish_with_one(const State& state) {
-    std::size_t all = half_.cases() - 1;
+    std::size_t all = error_branch_.cases() - 1;
     std::size_t any = 0;
-    OpenBits demanded = 0;
+    RemainingEffects demanded = 0;
     for (std::size_t c = 0; c < state.open.size(); ++c) {
-        const OpenBits still = state.open[c] & demanded_[c];
+        const RemainingEffects still = state.open[c] & demanded_[c];
         if (still == 0) continue;
         demanded |= still;
         all &= c;
@@ -235,7 +241,7 @@ bool LabelSearch::finish_with_one(const State& state) {
     const std::size_t mask = (std::size_t{1} << inputs()) - 1;
     const Region region{static_cast<std::uint8_t>(all & mask), static_cast<std::uint8_t>(~(all ^ any) & mask),
                         static_cast<std::uint8_t>(all >> inputs())};
-    OpenBits open = 0;
+    RemainingEffects open = 0;
     set_of(region).for_each([&](std::size_t c) { open |= state.open[c]; });
     const Kinds kinds = kinds_of(open);
     for (unsigned kind = 1; kind <= kinds; kind *= 2) {
@@ -249,7 +255,7 @@ bool LabelSearch::finish_with_one(const State& state) {
 
 bool LabelSearch::failed_before(const State& state, std::size_t most, bool remember) {
     std::uint64_t hash = 0x9E3779B97F4A7C15U;
-    for (OpenBits open : state.open) {
+    for (RemainingEffects open : state.open) {
         hash = (hash ^ open) * 0xFF51AFD7ED558CCDU;
         hash ^= hash >> 32;
     }
@@ -265,19 +271,19 @@ bool LabelSearch::failed_before(const State& state, std::size_t most, bool remem
 /// earlier term.
 std::vector<PlacedTerm> LabelSearch::result() const {
     std::vector<PlacedTerm> terms = best_;
-    std::vector<std::uint8_t> decided(half_.cases());
+    std::vector<std::uint8_t> decided(error_branch_.cases());
     for (std::size_t i = 0; i < terms.size(); ++i) {
         PlacedTerm& term = terms[i];
         if (term.order != nullptr && !term.order->is_fast()) continue;
         if (!term.names_next) continue;
-        bool needed = term.next != half_.step->number;
+        bool needed = term.next != error_branch_.step->number;
         for (std::size_t c = 0; c < decided.size(); ++c) {
             if (!term.region.holds(c, inputs()) || decided[c] != 0) continue;
             decided[c] = 1;
             for (std::size_t j = i + 1; j < terms.size() && !needed; ++j) {
                 const PlacedTerm& before = terms[j];
                 const bool is_fast = before.order == nullptr || before.order->is_fast();
-                needed = is_fast && before.names_next && before.next != half_.step->number &&
+                needed = is_fast && before.names_next && before.next != error_branch_.step->number &&
                          before.region.holds(c, inputs());
             }
         }

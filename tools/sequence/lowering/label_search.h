@@ -14,9 +14,9 @@
 namespace nplc::seqc {
 
 /// The open decisions of a case, one bit per next step, output byte, timer value and counter value.
-using OpenBits = std::uint64_t;
+using RemainingEffects = std::uint64_t;
 
-inline bool at_most_one(OpenBits bits) {
+inline bool at_most_one(RemainingEffects bits) {
     return (bits & (bits - 1)) == 0;
 }
 
@@ -31,31 +31,32 @@ struct PlacedTerm {
     bool names_next = true;
 };
 
-/// The meaning of the bits of OpenBits in one reduced step.
+/// The meaning of the bits of RemainingEffects in one reduced step.
 class OpenLayout {
   public:
-    explicit OpenLayout(const ReducedStep& half);
+    explicit OpenLayout(const ReducedStep& error_branch);
 
     bool fits() const { return fits_; }
-    OpenBits wanted(std::size_t behaviour) const { return wanted_[behaviour]; }
+    RemainingEffects wanted(std::size_t behaviour) const { return wanted_[behaviour]; }
     /// The part of `wanted` that is required for a correct case.
-    OpenBits demanded(std::size_t behaviour) const { return demanded_[behaviour]; }
+    RemainingEffects demanded(std::size_t behaviour) const { return demanded_[behaviour]; }
 
-    OpenBits nexts = 0;
-    OpenBits outputs = 0;
-    OpenBits timers = 0;
-    OpenBits counters = 0;
-    OpenBits no_timer = 0;  ///< set in cases without a timer preset, and never cleared
-    OpenBits no_counter = 0;
+    RemainingEffects nexts = 0;
+    RemainingEffects outputs = 0;
+    RemainingEffects timers = 0;
+    RemainingEffects counters = 0;
+    RemainingEffects no_timer = 0;  ///< set in cases without a timer preset, and never cleared
+    RemainingEffects no_counter = 0;
 
   private:
     template <class T>
-    OpenBits bit_for(std::vector<T>& seen, std::vector<OpenBits>& bits, T value, OpenBits& group);
+    RemainingEffects bit_for(std::vector<T>& seen, std::vector<RemainingEffects>& bits, T value,
+                             RemainingEffects& group);
 
     bool fits_ = true;
     unsigned used_ = 0;
-    std::vector<OpenBits> wanted_;
-    std::vector<OpenBits> demanded_;
+    std::vector<RemainingEffects> wanted_;
+    std::vector<RemainingEffects> demanded_;
 };
 
 /// Finds the minimum number of terms without an order that, together with a plan's terms, implement a reduced
@@ -66,7 +67,7 @@ class OpenLayout {
 /// decides). A term of the plan is placed as soon as possible, since it has no further cost.
 class LabelSearch {
   public:
-    LabelSearch(const ReducedStep& half, const OrderPlan& plan);
+    LabelSearch(const ReducedStep& error_branch, const OrderPlan& plan);
 
     /// Lower bound of the number of terms without an order for this plan.
     std::size_t fewest() const { return bound(start_); }
@@ -83,8 +84,8 @@ class LabelSearch {
         std::vector<std::uint32_t> after;  // items with a case of this one that are later in the plan
     };
     struct State {
-        std::vector<OpenBits> open;  // by case
-        CaseSet nexts;               // cases whose next step is open, and so on
+        std::vector<RemainingEffects> open;  // by case
+        CaseSet nexts;                       // cases whose next step is open, and so on
         CaseSet outputs;
         CaseSet timers;
         CaseSet counters;
@@ -99,12 +100,12 @@ class LabelSearch {
     };
 
     bool fits() const { return layout_.fits(); }
-    std::size_t inputs() const { return half_.inputs; }
+    std::size_t inputs() const { return error_branch_.inputs; }
     bool is_done(const State& state) const;
     std::size_t bound(const State& state) const;
 
-    Kinds kinds_of(OpenBits open) const;
-    OpenBits cleared_by(Kinds kind) const;
+    Kinds kinds_of(RemainingEffects open) const;
+    RemainingEffects cleared_by(Kinds kind) const;
     void survey(const State& state);
     std::vector<Candidate> candidates(const State& state);
     void add_candidates(const State& state, Ternary::Entry cube, std::size_t zeros, Kinds kinds,
@@ -112,7 +113,9 @@ class LabelSearch {
     CaseSet gains_of(const State& state, const CaseSet& cases, Kinds kind) const;
     std::size_t worth(const State& state, const CaseSet& cases, Kinds kind) const;
     void remove_dominated(std::vector<Candidate>& list) const;
-    CaseSet set_of(const Region& region) const { return cases_in(region, half_.inputs, half_.cases()); }
+    CaseSet set_of(const Region& region) const {
+        return cases_in(region, error_branch_.inputs, error_branch_.cases());
+    }
 
     void place(State& state, const Region& region, Kinds kind, const OrderTerm* order = nullptr);
     void place_items(State& state);
@@ -129,17 +132,17 @@ class LabelSearch {
     void keep(std::size_t used);
     std::vector<PlacedTerm> result() const;
 
-    const ReducedStep& half_;
+    const ReducedStep& error_branch_;
     const Ternary& cubes_;
     OpenLayout layout_;
     std::size_t layers_;
     bool unnamed_help_ = false;
     std::vector<Item> items_;
-    std::vector<OpenBits> demanded_;  // by case
-    std::vector<CaseSet> classes_;    // cases with the same next step and outputs
+    std::vector<RemainingEffects> demanded_;  // by case
+    std::vector<CaseSet> classes_;            // cases with the same next step and outputs
     State start_;
 
-    std::vector<OpenBits> masks_;  // by zeros and cube: all open bits in it
+    std::vector<RemainingEffects> masks_;  // by zeros and cube: all open bits in it
     std::vector<Kinds> kinds_;
     std::vector<PlacedTerm> path_;  // the last term of the table first
     std::vector<PlacedTerm> best_;

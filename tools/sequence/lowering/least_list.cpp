@@ -232,7 +232,7 @@ class SlotSearch {
         const auto least =
             std::max<std::size_t>(2, static_cast<std::size_t>(std::popcount(open & strangers_)));
         if (most < least || failures_.has(open, most)) return false;
-        const SmallSet lonely = loneliest(open);
+        const SmallSet lonely = most_constrained(open);
         for (const SmallCubes::Entry& cube : cubes_.list()) {
             if ((cube.cases & lonely) == 0 || (cube.cases & ~open) != 0) continue;
             path_.push_back(&cube);
@@ -258,7 +258,7 @@ class SlotSearch {
     }
 
     /// The open case contained in the fewest open cubes.
-    SmallSet loneliest(SmallSet open) const {
+    SmallSet most_constrained(SmallSet open) const {
         std::array<std::uint8_t, 32> held{};
         for (const SmallCubes::Entry& cube : cubes_.list()) {
             if ((cube.cases & ~open) != 0) continue;

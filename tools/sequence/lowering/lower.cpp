@@ -15,15 +15,15 @@ std::vector<LoweredTerm> shortened(const StepPlan& step, const std::vector<std::
                                    const std::vector<LoweredTerm>& plain) {
     const std::size_t made = plain.size() - step.terms.size();
     std::vector<LoweredTerm> result(plain.begin(), plain.begin() + static_cast<std::ptrdiff_t>(made));
-    for (const ReducedStep& half : halves_of(step, outputs_of)) {
-        const auto in_half = [&](const LoweredTerm& term) {
+    for (const ReducedStep& error_branch : error_branches_of(step, outputs_of)) {
+        const auto in_branch = [&](const LoweredTerm& term) {
             const sequencer::Condition condition = sequencer::decode(term.bytes).condition;
-            return ((condition.input & sequencer::kError) != 0) == half.error;
+            return ((condition.input & sequencer::kError) != 0) == error_branch.error;
         };
-        const auto count = std::count_if(result.begin(), result.end(), in_half);
-        const std::vector<LoweredTerm> better = shorten(half, static_cast<std::size_t>(count));
+        const auto count = std::count_if(result.begin(), result.end(), in_branch);
+        const std::vector<LoweredTerm> better = shorten(error_branch, static_cast<std::size_t>(count));
         if (better.empty()) continue;
-        std::erase_if(result, in_half);
+        std::erase_if(result, in_branch);
         result.insert(result.end(), better.begin(), better.end());
     }
     result.insert(result.end(), plain.begin() + static_cast<std::ptrdiff_t>(made), plain.end());

@@ -14,7 +14,8 @@ constexpr std::size_t kImpossible = SIZE_MAX / 4;
 
 class Planner {
   public:
-    explicit Planner(const ReducedStep& half) : half_(half), sharing_(half), branches_(sharing_.branches()) {}
+    explicit Planner(const ReducedStep& error_branch)
+        : error_branch_(error_branch), sharing_(error_branch), branches_(sharing_.branches()) {}
 
     std::vector<OrderPlan> run() {
         if (branches_.empty()) return {OrderPlan{}};
@@ -130,11 +131,11 @@ class Planner {
 
     /// A case that needs both presets and has one FastMAC order, which can carry either.
     bool needs_choice(const OrderPlan& plan) const {
-        for (std::size_t c = 0; c < half_.cases(); ++c) {
-            const Behaviour& wanted = half_.at(c);
+        for (std::size_t c = 0; c < error_branch_.cases(); ++c) {
+            const Behaviour& wanted = error_branch_.at(c);
             if (wanted.timer() == 0 || wanted.counter() == 0) continue;
             const auto carriers = std::count_if(plan.begin(), plan.end(), [&](const OrderTerm& term) {
-                return term.is_fast() && term.region.holds(c, half_.inputs);
+                return term.is_fast() && term.region.holds(c, error_branch_.inputs);
             });
             if (carriers == 1) return true;
         }
@@ -147,7 +148,7 @@ class Planner {
             for (const Region& region : *sharing_.regions(column.branches))
                 plan.push_back({region, column.send, {}});
         }
-        std::vector<std::uint8_t> carried(half_.cases());  // bit 0 the timer, bit 1 the counter
+        std::vector<std::uint8_t> carried(error_branch_.cases());  // bit 0 the timer, bit 1 the counter
         for (OrderTerm& term : plan) {
             if (!term.is_fast()) continue;
             for (int attempt = 0; attempt < 2 && term.preset == Preset::none; ++attempt) {
@@ -163,21 +164,21 @@ class Planner {
         const std::uint8_t bit = timer ? 1 : 2;
         std::uint16_t value = 0;
         bool is_new = false;
-        for (std::size_t c = 0; c < half_.cases(); ++c) {
-            if (!term.region.holds(c, half_.inputs)) continue;
-            const std::uint16_t wanted = timer ? half_.at(c).timer() : half_.at(c).counter();
+        for (std::size_t c = 0; c < error_branch_.cases(); ++c) {
+            if (!term.region.holds(c, error_branch_.inputs)) continue;
+            const std::uint16_t wanted = timer ? error_branch_.at(c).timer() : error_branch_.at(c).counter();
             if (wanted == 0 || (value != 0 && wanted != value)) return false;
             value = wanted;
             is_new = is_new || (carried[c] & bit) == 0;
         }
         if (!is_new) return false;
-        for (std::size_t c = 0; c < half_.cases(); ++c) {
-            if (term.region.holds(c, half_.inputs)) carried[c] |= bit;
+        for (std::size_t c = 0; c < error_branch_.cases(); ++c) {
+            if (term.region.holds(c, error_branch_.inputs)) carried[c] |= bit;
         }
         return true;
     }
 
-    const ReducedStep& half_;
+    const ReducedStep& error_branch_;
     Sharing sharing_;
     const std::vector<Branch>& branches_;
     std::vector<Branches> common_;  // by branch: the others with a common order
@@ -187,8 +188,8 @@ class Planner {
 
 }  // namespace
 
-std::vector<OrderPlan> order_plans(const ReducedStep& half) {
-    return Planner(half).run();
+std::vector<OrderPlan> order_plans(const ReducedStep& error_branch) {
+    return Planner(error_branch).run();
 }
 
 }  // namespace nplc::seqc

@@ -33,6 +33,6 @@ using OrderPlan = std::vector<OrderTerm>;
 
 /// Ways to send all orders of the reduced step, in every case once and in order; the shortest first, at least
 /// one if a table can do it at all. They differ in which branches share a term for the same order.
-std::vector<OrderPlan> order_plans(const ReducedStep& half);
+std::vector<OrderPlan> order_plans(const ReducedStep& error_branch);
 
 }  // namespace nplc::seqc

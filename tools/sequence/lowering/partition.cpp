@@ -142,7 +142,7 @@ class PartitionSearch {
     }
 
     /// The open point with the fewest open neighbours: it is in few cubes.
-    unsigned loneliest(const Points& open) const {
+    unsigned most_constrained(const Points& open) const {
         unsigned best = 0;
         int fewest = 8;
         for (unsigned point = 0; point <= last_; ++point) {
@@ -164,7 +164,7 @@ class PartitionSearch {
         if (best_.size() <= least_ || ++steps_ > kSearchBound) return;
         const std::size_t further = std::max<std::size_t>((open & strangers_).count(), 1);
         if (chosen.size() + further >= best_.size()) return;
-        for (Cube cube : cubes_with(loneliest(open), open)) {
+        for (Cube cube : cubes_with(most_constrained(open), open)) {
             chosen.push_back(cube);
             search(open & ~cut(cube), chosen);
             chosen.pop_back();

@@ -13,9 +13,9 @@ std::size_t bit_of(std::size_t k) {
     return k < kErrorBit ? k : k + 1;
 }
 
-std::size_t case_of(std::size_t half_case, bool error) {
-    const std::size_t low = half_case & 0x7F;
-    return low | (error ? std::size_t{1} << kErrorBit : 0) | (half_case >> 7 << kTimerZero);
+std::size_t case_of(std::size_t branch_case, bool error) {
+    const std::size_t low = branch_case & 0x7F;
+    return low | (error ? std::size_t{1} << kErrorBit : 0) | (branch_case >> 7 << kTimerZero);
 }
 
 Behaviour behaviour_of(const StepPlan& step, const Action* action, std::uint8_t resting,
@@ -47,7 +47,7 @@ class Sorter {
         }
     }
 
-    ReducedStep half(bool error) {
+    ReducedStep error_branch(bool error) {
         ReducedStep result;
         result.error = error;
         result.step = &step_;
@@ -82,19 +82,19 @@ class Sorter {
         return false;
     }
 
-    static void reduce(ReducedStep& half, const Wanted& wanted) {
+    static void reduce(ReducedStep& error_branch, const Wanted& wanted) {
         std::vector<std::size_t> kept;
         for (std::size_t k = 0; k < kHalfBits; ++k) {
             if (!matters(wanted, k)) continue;
             kept.push_back(k);
-            half.bits.push_back(static_cast<std::uint8_t>(bit_of(k)));
-            if (k < kErrorBit) ++half.inputs;
+            error_branch.bits.push_back(static_cast<std::uint8_t>(bit_of(k)));
+            if (k < kErrorBit) ++error_branch.inputs;
         }
-        half.wanted.resize(std::size_t{1} << kept.size());
-        for (std::size_t reduced = 0; reduced < half.wanted.size(); ++reduced) {
+        error_branch.wanted.resize(std::size_t{1} << kept.size());
+        for (std::size_t reduced = 0; reduced < error_branch.wanted.size(); ++reduced) {
             std::size_t c = 0;
             for (std::size_t i = 0; i < kept.size(); ++i) c |= ((reduced >> i) & 1U) << kept[i];
-            half.wanted[reduced] = wanted[c];
+            error_branch.wanted[reduced] = wanted[c];
         }
     }
 
@@ -113,9 +113,10 @@ std::uint8_t Behaviour::output_byte() const {
     return static_cast<std::uint8_t>(byte);
 }
 
-std::array<ReducedStep, 2> halves_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
+std::array<ReducedStep, 2> error_branches_of(const StepPlan& step,
+                                             const std::vector<std::uint8_t>& outputs_of) {
     Sorter sorter(step, outputs_of);
-    return {sorter.half(false), sorter.half(true)};
+    return {sorter.error_branch(false), sorter.error_branch(true)};
 }
 
 }  // namespace nplc::seqc

@@ -42,6 +42,7 @@ struct ReducedStep {
     const Behaviour& at(std::size_t reduced) const { return behaviours[wanted[reduced]]; }
 };
 
-std::array<ReducedStep, 2> halves_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
+std::array<ReducedStep, 2> error_branches_of(const StepPlan& step,
+                                             const std::vector<std::uint8_t>& outputs_of);
 
 }  // namespace nplc::seqc

@@ -14,10 +14,11 @@ constexpr std::size_t kClash = 100;
 
 }  // namespace
 
-Sharing::Sharing(const ReducedStep& half) : half_(half), sender_(half.behaviours.size()) {
-    for (std::size_t b = 0; b < half.behaviours.size(); ++b) {
-        if (half.behaviours[b].sends() == 0) continue;
-        Branch branch{static_cast<std::uint16_t>(b), &half.behaviours[b].action->sends, 0};
+Sharing::Sharing(const ReducedStep& error_branch)
+    : error_branch_(error_branch), sender_(error_branch.behaviours.size()) {
+    for (std::size_t b = 0; b < error_branch.behaviours.size(); ++b) {
+        if (error_branch.behaviours[b].sends() == 0) continue;
+        Branch branch{static_cast<std::uint16_t>(b), &error_branch.behaviours[b].action->sends, 0};
         for (std::size_t i = 0; i < branch.sends->size(); ++i) {
             if ((*branch.sends)[i].reg == nullptr) branch.last_fast = i + 1;
         }
@@ -33,17 +34,17 @@ const Sharing::Regions& Sharing::regions(Branches set) {
 }
 
 Sharing::Regions Sharing::make_regions(Branches set) const {
-    const std::size_t layers = half_.cases() >> half_.inputs;
+    const std::size_t layers = error_branch_.cases() >> error_branch_.inputs;
     std::vector<Points> by_zeros(layers);
-    const std::size_t mask = (std::size_t{1} << half_.inputs) - 1;
+    const std::size_t mask = (std::size_t{1} << error_branch_.inputs) - 1;
     for (std::size_t point = 0; point < kPoints; ++point) {
         std::size_t first = layers;
         for (std::size_t zeros = 0; zeros < layers && first == layers; ++zeros) {
-            if (contains(set, (point & mask) | zeros << half_.inputs)) first = zeros;
+            if (contains(set, (point & mask) | zeros << error_branch_.inputs)) first = zeros;
         }
         if (first == layers) continue;
         for (std::size_t zeros = first; zeros < layers; ++zeros) {
-            const bool in = contains(set, (point & mask) | zeros << half_.inputs);
+            const bool in = contains(set, (point & mask) | zeros << error_branch_.inputs);
             if (in != ((zeros & first) == first)) return std::nullopt;
         }
         by_zeros[first].set(point);
@@ -68,7 +69,7 @@ bool Sharing::ends_clash(Branches set, const std::vector<std::size_t>& positions
     const Behaviour* first = nullptr;
     for (std::size_t b = 0; b < branches_.size(); ++b) {
         if (((set >> b) & 1U) == 0 || positions[b] + 1 != branches_[b].last_fast) continue;
-        const Behaviour& behaviour = half_.behaviours[branches_[b].behaviour];
+        const Behaviour& behaviour = error_branch_.behaviours[branches_[b].behaviour];
         if (first == nullptr) first = &behaviour;
         if (behaviour.next != first->next || behaviour.output_byte() != first->output_byte()) return true;
     }

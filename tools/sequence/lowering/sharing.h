@@ -36,7 +36,7 @@ class Sharing {
   public:
     using Regions = std::optional<std::vector<Region>>;
 
-    explicit Sharing(const ReducedStep& half);
+    explicit Sharing(const ReducedStep& error_branch);
 
     const std::vector<Branch>& branches() const { return branches_; }
 
@@ -56,7 +56,7 @@ class Sharing {
     };
 
     bool contains(Branches set, std::size_t reduced) const {
-        return (set & sender_[half_.wanted[reduced]]) != 0;
+        return (set & sender_[error_branch_.wanted[reduced]]) != 0;
     }
     Regions make_regions(Branches set) const;
     std::optional<Way> make_way(Branches group, bool own_ends);
@@ -66,7 +66,7 @@ class Sharing {
     void extend(std::size_t state, const std::vector<std::size_t>& members, bool own_ends,
                 std::vector<Best>& best);
 
-    const ReducedStep& half_;
+    const ReducedStep& error_branch_;
     std::vector<Branch> branches_;
     std::vector<Branches> sender_;  // by behaviour: its branch, or none
     std::map<Branches, Regions> regions_;

@@ -181,8 +181,8 @@ std::vector<sequencer::MotorOrder> power_up_orders(const Machine& machine) {
 namespace {
 
 /// The part of an outcome that distinguishes reactions.
-Reaction reaction_for(const Machine& machine, std::uint8_t step, const table::Outcome& outcome) {
-    Reaction reaction{.when = {}, .outcome = outcome};
+StepTransition reaction_for(const Machine& machine, std::uint8_t step, const table::Outcome& outcome) {
+    StepTransition reaction{.when = {}, .outcome = outcome};
     const bool leaves = outcome.next != step;
     if (leaves && outcome.outputs)
         reaction.outputs_shown =
@@ -195,14 +195,14 @@ Reaction reaction_for(const Machine& machine, std::uint8_t step, const table::Ou
     return reaction;
 }
 
-bool is_same(const Reaction& a, const Reaction& b) {
+bool is_same(const StepTransition& a, const StepTransition& b) {
     return a.outputs_shown == b.outputs_shown && a.outcome == b.outcome;
 }
 
-void add_split_by_error(const Reaction& reaction, std::vector<Reaction>& reactions) {
+void add_split_by_error(const StepTransition& reaction, std::vector<StepTransition>& reactions) {
     const Truth error = truth_of_bit(kErrorBit);
-    Reaction good = reaction;
-    Reaction bad = reaction;
+    StepTransition good = reaction;
+    StepTransition bad = reaction;
     good.when &= ~error;
     bad.when &= error;
     const bool one = good.when.none() || bad.when.none() || !depends_on(reaction.when, kErrorBit);
@@ -216,20 +216,20 @@ void add_split_by_error(const Reaction& reaction, std::vector<Reaction>& reactio
 
 }  // namespace
 
-std::vector<Reaction> reactions_of(const Machine& machine, std::uint8_t step) {
+std::vector<StepTransition> reactions_of(const Machine& machine, std::uint8_t step) {
     const table::Step& behaviour = machine.steps[step];
-    std::vector<Reaction> merged;
+    std::vector<StepTransition> merged;
     std::vector<std::size_t> index_of;  // by outcome
     for (const table::Outcome& outcome : behaviour.outcomes) {
-        const Reaction reaction = reaction_for(machine, step, outcome);
+        const StepTransition reaction = reaction_for(machine, step, outcome);
         const auto found = std::find_if(merged.begin(), merged.end(),
-                                        [&](const Reaction& r) { return is_same(r, reaction); });
+                                        [&](const StepTransition& r) { return is_same(r, reaction); });
         index_of.push_back(static_cast<std::size_t>(found - merged.begin()));
         if (found == merged.end()) merged.push_back(reaction);
     }
     for (std::size_t c = 0; c < kCases; ++c) merged[index_of[behaviour.of_case[c]]].when.set(c);
-    std::vector<Reaction> reactions;
-    for (const Reaction& reaction : merged) {
+    std::vector<StepTransition> reactions;
+    for (const StepTransition& reaction : merged) {
         const bool idle = reaction.outcome.next == step && reaction.outcome.is_quiet();
         if (!idle) add_split_by_error(reaction, reactions);
     }

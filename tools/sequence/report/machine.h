@@ -39,7 +39,7 @@ struct Machine {
 Machine machine_of(std::span<const std::uint8_t> table);
 
 /// An action of a step, and its condition. Not included: staying and at most writing outputs.
-struct Reaction {
+struct StepTransition {
     Truth when;
     table::Outcome outcome;          ///< `outputs` only if the following step does not fix them
     std::uint8_t outputs_shown = 0;  ///< the bits of `outcome.outputs` that are not fixed
@@ -47,7 +47,7 @@ struct Reaction {
 
 /// In the order of the cases. An action both with and without ERROR is one reaction if it has the same
 /// condition, else two.
-std::vector<Reaction> reactions_of(const Machine& machine, std::uint8_t step);
+std::vector<StepTransition> reactions_of(const Machine& machine, std::uint8_t step);
 
 /// How one output depends on the inputs while a step is active and stays.
 struct OutputRule {

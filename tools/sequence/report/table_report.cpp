@@ -16,8 +16,8 @@
 namespace nplc::seqc {
 namespace {
 
-TableReport::Transition transition_of(std::uint8_t from, const Reaction& reaction, const Symbols* symbols,
-                                      bool safe) {
+TableReport::Transition transition_of(std::uint8_t from, const StepTransition& reaction,
+                                      const Symbols* symbols, bool safe) {
     TableReport::Transition transition;
     transition.from = from;
     transition.to = reaction.outcome.next;
@@ -31,7 +31,7 @@ void add_step(const Machine& machine, std::uint8_t step, const Symbols* symbols,
     if (!machine.used.test(step)) return;
     report.steps.push_back(
         {step, step_name(step, symbols), machine.steps[step].terms, machine.reachable.test(step)});
-    for (const Reaction& reaction : reactions_of(machine, step)) {
+    for (const StepTransition& reaction : reactions_of(machine, step)) {
         if (reaction.outcome.next == step && reaction.outcome.orders.empty()) continue;
         report.transitions.push_back(
             transition_of(step, reaction, symbols, report.settings.safe_communication));

@@ -24,11 +24,11 @@ class CommandResult {
 };
 
 /// Outcome of a command that may take several polls; empty while it is in progress.
-class Progress {
+class PendingResult {
   public:
-    constexpr Progress() = default;
-    constexpr Progress(std::nullopt_t) {}                               // NOLINT: implicit by purpose
-    constexpr Progress(CommandResult result) : word_(result.word()) {}  // NOLINT: implicit by purpose
+    constexpr PendingResult() = default;
+    constexpr PendingResult(std::nullopt_t) {}                               // NOLINT: implicit by purpose
+    constexpr PendingResult(CommandResult result) : word_(result.word()) {}  // NOLINT: implicit by purpose
     constexpr explicit operator bool() const { return word_ != kUnderWay; }
     constexpr std::uint32_t word() const { return word_; }
     constexpr bool is_done() const { return word_ == CommandResult(Result::done).word(); }

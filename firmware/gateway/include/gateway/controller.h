@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/own_registers.h"
+#include "gateway/gateway_registers.h"
 #include "gateway/user_port.h"
 
 namespace nplc::gateway {
@@ -18,7 +18,7 @@ class Controller {
         ports::Storage& storage;
         ports::SerialPort* user_line = nullptr;           ///< null: no user port
         ports::SerialPort* motor_mactalk_line = nullptr;  ///< the motor's own MacTalk port; null: not wired
-        OwnRegisters::Lines shown_lines{};                ///< the lines whose faults LINE_FAULTS shows
+        GatewayRegisters::Lines shown_lines{};            ///< the lines whose faults LINE_FAULTS shows
         const store::Area* set_points = nullptr;          ///< in `storage`; null: no set-points are stored
     };
 
@@ -42,8 +42,8 @@ class Controller {
     TableManager& tables() { return tables_; }
     const TableManager& tables() const { return tables_; }
     /// For faces beside the user's port (firmware/faces).
-    OwnRegisters& registers() { return registers_; }
-    const OwnRegisters& registers() const { return registers_; }
+    GatewayRegisters& registers() { return registers_; }
+    const GatewayRegisters& registers() const { return registers_; }
     UserPort& user_port() { return user_port_; }
     motor::Motor& motor() { return motor_; }
     const motor::Motor& motor() const { return motor_; }
@@ -53,7 +53,7 @@ class Controller {
   private:
     // Order of construction: members that only store references to later ones come first.
     motor::Motor& motor_;
-    OwnRegisters registers_;
+    GatewayRegisters registers_;
     UserPort user_port_;
     Gateway sequence_;
     SetPointsPart set_points_;

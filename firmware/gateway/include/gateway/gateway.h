@@ -8,10 +8,10 @@
 #include "base/time.h"
 #include "gateway/event_log.h"
 #include "gateway/hold_control.h"
+#include "gateway/io_image.h"
 #include "gateway/poll_watch.h"
 #include "gateway/safe_state.h"
 #include "gateway/sequence_scan.h"
-#include "gateway/signals.h"
 #include "motor/motor.h"
 #include "ports/digital_io.h"
 #include "ports/watchdog.h"
@@ -90,7 +90,7 @@ class Gateway {
 
     /// A required resource of the board is lost: enters the safe state; start is not enabled until the next
     /// start-up.
-    void withdraw(SafeReason reason, base::Instant now);
+    void lock_and_enter_safe_state(SafeReason reason, base::Instant now);
 
     /// Whether the motor supports the order of this term; true if the term has none.
     bool motor_takes(sequencer::TermView term) const { return scan_.motor_takes(term); }
@@ -118,7 +118,7 @@ class Gateway {
     /// Ends the repetition of an unconfirmed stop and makes run() possible.
     void give_up_stop();
     /// Enters the safe state, ends all forces and clears the breakpoints.
-    void make_safe(base::Instant now);
+    void enter_safe_state_by_command(base::Instant now);
 
     /// Bit n: the sequence is held when it enters step n, before the first scan there.
     void set_breakpoints(std::uint64_t steps) { hold_.set_breakpoints(steps); }
@@ -132,9 +132,9 @@ class Gateway {
 
     void force_inputs(const Force& force, base::Instant now);
     void force_outputs(const Force& force, base::Instant now);
-    void renew_forces(base::Instant now) { signals_.forces().renew(now); }
+    void renew_forces(base::Instant now) { io_image_.forces().renew(now); }
     void end_forces();
-    const Forces& forces() const { return signals_.forces(); }
+    const ForcedIo& forces() const { return io_image_.forces(); }
 
     /// Error: not_stopped.
     base::Status change(const Settings& settings);
@@ -179,9 +179,9 @@ class Gateway {
     const PollWatch& polls() const { return polls_; }  ///< its worst() is since run(), too
     /// For a board that sleeps until another instant than next_poll() said.
     void expect_poll(base::Instant next, base::Instant now) { polls_.expect(next, now); }
-    std::uint8_t terminals() const { return signals_.terminals(); }
-    std::uint8_t inputs() const { return signals_.inputs(); }
-    std::uint8_t outputs() const { return signals_.outputs(); }
+    std::uint8_t terminals() const { return io_image_.terminals(); }
+    std::uint8_t inputs() const { return io_image_.inputs(); }
+    std::uint8_t outputs() const { return io_image_.outputs(); }
     bool enabled() const;
     bool is_in_service() const { return permission_.is_in_service(); }  ///< until the next start
     /// Only while stopped: from now on nothing runs until the next start.
@@ -239,7 +239,7 @@ class Gateway {
     std::uint32_t stop_asked_ = 0;
     base::Instant hold_asked_{};
     HoldControl hold_;
-    Signals signals_;
+    IoImage io_image_;
     Settings settings_;
     SequenceScan scan_;
     EventLog log_;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "gateway/own_registers.h"
+#include "gateway/gateway_registers.h"
 #include "protocol/mactalk.h"
 #include "protocol/modbus_rtu.h"
 
@@ -20,7 +20,7 @@ namespace nplc::gateway {
 /// of all boards (registers/modbus_map.h), without scaled values and set-points. Does no I/O.
 class ModbusSlave {
   public:
-    explicit ModbusSlave(Gateway& gateway, OwnRegisters& own) : gateway_(gateway), own_(own) {}
+    explicit ModbusSlave(Gateway& gateway, GatewayRegisters& own) : gateway_(gateway), own_(own) {}
 
     /// Takes a received character. True: a request for `unit` is complete, and begin() must be called.
     bool take(std::uint8_t byte, std::uint8_t unit, base::Instant now);
@@ -44,7 +44,7 @@ class ModbusSlave {
     /// For Need::motor: the equivalent MacTalk request.
     const protocol::mactalk::Request& motor_request() const { return motor_; }
 
-    void end_write(const Progress& outcome);
+    void end_write(const PendingResult& outcome);
     void end_motor(std::span<const std::uint8_t> data);
     /// The request was not carried out: answers with the exception for `result`.
     void refuse(Result result);
@@ -80,7 +80,7 @@ class ModbusSlave {
     Need write_own(std::uint8_t reg, std::uint32_t value);
 
     Gateway& gateway_;
-    OwnRegisters& own_;
+    GatewayRegisters& own_;
     protocol::modbus::RtuReader reader_;
     Request request_;
     std::uint8_t unit_ = 0;
@@ -110,7 +110,7 @@ class ModbusSlave {
 /// Replaces ModbusSlave in a firmware without Modbus.
 struct NoModbusSlave {
     using Need = ModbusSlave::Need;
-    NoModbusSlave(Gateway&, OwnRegisters&) {}
+    NoModbusSlave(Gateway&, GatewayRegisters&) {}
     static constexpr bool take(std::uint8_t, std::uint8_t, base::Instant) { return false; }
     static void pass_over() {}
     static void damaged(base::Instant) {}
@@ -119,7 +119,7 @@ struct NoModbusSlave {
     static constexpr std::uint8_t reg() { return 0; }
     static constexpr std::uint32_t value() { return 0; }
     static protocol::mactalk::Request motor_request() { return {}; }
-    static void end_write(const Progress&) {}
+    static void end_write(const PendingResult&) {}
     static void end_motor(std::span<const std::uint8_t>) {}
     static void refuse(Result) {}
     static void drop() {}

@@ -84,10 +84,10 @@ class SequenceScan {
     base::Instant next_poll(std::uint8_t inputs, base::Microseconds longest_wait, base::Instant now) const;
     /// The motor was given an order.
     void note_progress(base::Instant now) { progress_ = now; }
-    base::Instant patience(base::Microseconds longest_wait) const {
+    base::Instant deadline(base::Microseconds longest_wait) const {
         return progress_ + longest_wait + base::Microseconds(1);
     }
-    bool waits_too_long(base::Microseconds longest_wait, base::Instant now) const {
+    bool timed_out(base::Microseconds longest_wait, base::Instant now) const {
         return now - progress_ > longest_wait;
     }
 

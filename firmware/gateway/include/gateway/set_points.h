@@ -59,7 +59,7 @@ class SetPoints final : public ValueSource {
     /// longer waits. `bytes` must stay valid until it has begun; if it cannot begin within kLongestWait it
     /// ends with `busy`, afterwards only its real outcome counts. A request repeated with the same number is
     /// not carried out twice.
-    Progress serve(Writer& writer, std::span<const std::uint8_t> bytes, base::Instant now);
+    PendingResult serve(Writer& writer, std::span<const std::uint8_t> bytes, base::Instant now);
     static constexpr base::Microseconds kLongestWait{1'000'000};
     bool stores() const { return saving_; }
     std::uint32_t pointer() const { return pointer_; }
@@ -146,7 +146,7 @@ class SetPoints final : public ValueSource {
     /// as it is.
     struct Asked {
         std::uint32_t own_number = 0;
-        Progress outcome;
+        PendingResult outcome;
     };
     static_assert(sizeof(Asked) == 8 && std::endian::native == std::endian::little);
     std::array<Asked, registers::gateway::kKeptRequests> asked_{};
@@ -182,7 +182,7 @@ struct NoSetPoints {
         static void begin(Origin, base::Instant) {}
         static constexpr std::uint32_t request = 0;
     };
-    static Progress serve(const Writer&, std::span<const std::uint8_t>, base::Instant) {
+    static PendingResult serve(const Writer&, std::span<const std::uint8_t>, base::Instant) {
         return CommandResult{Result::no_register};
     }
     static constexpr base::Microseconds kLongestWait{};

@@ -39,7 +39,7 @@ class SettingsManager {
     /// it.
     void begin_save();
     /// Empty until the storage has accepted or refused the values, however slow it is.
-    Progress poll_save() const;
+    PendingResult poll_save() const;
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
     /// For boards that keep with the settings that somebody has commanded run; after attach(), before a table

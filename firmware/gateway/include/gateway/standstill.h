@@ -17,7 +17,7 @@ class Standstill {
 
     void begin(base::Instant now);
     /// done, moving, or link_down: no answer within 1 s, in which a link may still come up.
-    Progress poll(base::Instant now);
+    PendingResult poll(base::Instant now);
     /// Latest time of the next poll if the motor's driver has nothing new.
     base::Instant next_poll(base::Instant now) const;
     void drop() { motor_.drop_access(); }
@@ -25,7 +25,7 @@ class Standstill {
   private:
     enum class Phase : std::uint8_t { first_position, speed, second_position };
 
-    Progress take(std::uint32_t value, base::Instant now);
+    PendingResult take(std::uint32_t value, base::Instant now);
     std::uint8_t register_of_phase() const;
     bool is_word() const { return phase_ == Phase::speed && !motor_.longwords_only(); }
 

@@ -58,7 +58,7 @@ class TableManager final : private store::TermCheck {
 
     /// Makes the stored table the active one if the sequence is stopped and the motor stands still.
     void begin_activation(base::Instant now);
-    Progress poll_activation(base::Instant now);
+    PendingResult poll_activation(base::Instant now);
     base::Instant next_activation(base::Instant now) const { return standstill_.next_poll(now); }
     void drop_activation() { standstill_.drop(); }
 

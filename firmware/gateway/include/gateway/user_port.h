@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "gateway/gateway_registers.h"
 #include "gateway/modbus_slave.h"
 #include "gateway/motor_bridge.h"
-#include "gateway/own_registers.h"
 #include "ports/serial.h"
 #include "protocol/mactalk.h"
 #include "registers/mac.h"
@@ -26,7 +26,7 @@ class UserPort {
     /// `line`: null where messages come decoded through submit(), or there is no user port. `motor_line`: the
     /// motor's own MacTalk port for messages that FlexMAC cannot carry; null if not wired.
     UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
-             OwnRegisters& own, SettingsManager& settings)
+             GatewayRegisters& own, SettingsManager& settings)
         : line_(line),
           motor_line_(motor_line),
           gateway_(gateway),
@@ -35,7 +35,7 @@ class UserPort {
           bridge_(motor),
           modbus_(gateway, own) {}
 
-    /// To be called after Gateway::poll and OwnRegisters::poll.
+    /// To be called after Gateway::poll and GatewayRegisters::poll.
     void poll(base::Instant now);
     /// Latest time of the next poll if nothing arrives on either line.
     base::Instant next_poll(base::Instant now);
@@ -83,7 +83,7 @@ class UserPort {
     ports::SerialPort* line_;
     ports::SerialPort* motor_line_;
     Gateway& gateway_;
-    OwnRegisters& own_;
+    GatewayRegisters& own_;
     SettingsManager& settings_;
 
     // Small members first: see Gateway.

@@ -117,9 +117,9 @@ class JvlLink {
     std::uint8_t sent_ = 0;
     std::uint8_t resends_ = 0;
     Expect expect_ = Expect::nothing;
-    bool on_the_line_ = false;        ///< the last byte has left
-    std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not accepted
-    std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
+    bool on_the_line_ = false;           ///< the last byte has left
+    std::uint8_t stale_count_ = 0;       ///< status bytes in a row that show the message was not accepted
+    std::uint8_t unexpected_count_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
     bool reads_ = false;  ///< the answer to request_ is pending
     bool synchronized_ = false;

@@ -31,7 +31,7 @@ class JvlMotor final : public Motor {
     /// Latest time of the next poll, to be asked after each poll() and each call that gives the driver work;
     /// `now` or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
-    bool settled() const override;
+    bool orders_complete() const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override { orders_.push(order, is_up()); }
     bool can_execute(const Order& order) const override;
@@ -66,7 +66,7 @@ class JvlMotor final : public Motor {
     void on_executed(const Order& order);
     void start_up(base::Instant now);
     std::uint8_t safety_command() const;
-    void free_the_line(base::Instant now);
+    void request_slow_status_blind(base::Instant now);
     bool send_blind_stop(base::Instant now);
     bool has_work() const;
     void work(base::Instant now);

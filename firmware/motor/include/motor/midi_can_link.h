@@ -26,7 +26,7 @@ class MidiCanLink final : public MidiLink {
     base::Instant next_poll(base::Instant now) const override;
     bool busy() const override { return busy_; }
     bool take_boot() override;
-    MidiTrouble trouble() const override;
+    BusFault trouble() const override;
     void withdraw() override { busy_ = busy_ && written_; }
 
   private:

@@ -61,7 +61,7 @@ struct MidiOutcome {
 };
 
 /// Faults of the line, independent of the message in progress.
-enum class MidiTrouble : std::uint8_t {
+enum class BusFault : std::uint8_t {
     none,
     no_bus,   ///< the CAN controller is down or bus-off
     several,  ///< more than one module answers to the address; until two requests have been answered once
@@ -80,7 +80,7 @@ class MidiLink {
     virtual bool busy() const = 0;
     /// The module has reported a restart; true once per restart. Only on CAN.
     virtual bool take_boot() = 0;
-    virtual MidiTrouble trouble() const = 0;
+    virtual BusFault trouble() const = 0;
     /// Drops a message that has not begun to be sent, without an outcome.
     virtual void withdraw() = 0;
 

@@ -31,7 +31,7 @@ class MidiMotion {
     bool at_rest() const { return state_ == State::at_rest; }
     bool moves() const { return state_ == State::going || state_ == State::running; }
     /// The shaft moves for an unknown reason.
-    bool is_stray() const { return state_ == State::unknown && seen_moving_; }
+    bool unexpected_motion() const { return state_ == State::unknown && seen_moving_; }
     /// The module's position loop holds `goal`.
     bool holds(std::int32_t goal) const { return goal_holds_ && goal_ == goal; }
     bool has_arrived_at(std::int32_t goal) const { return at_rest() && arrived_ && holds(goal); }
@@ -40,7 +40,7 @@ class MidiMotion {
     std::uint16_t period() const { return run_period_; }
     bool turns_left() const { return left_; }
     /// It is unknown whether the motion's command was carried out.
-    bool is_doubtful() const { return doubtful_; }
+    bool motion_unconfirmed() const { return doubtful_; }
     bool needs_position(const MidiDrive& drive) const;
     /// The stop has exceeded its time limit.
     bool stops_late(base::Instant now) const { return state_ == State::stopping && now >= ramp_end_; }

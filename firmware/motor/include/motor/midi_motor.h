@@ -41,7 +41,7 @@ class MidiMotor final : public Motor {
     /// Latest time of the next poll, to be asked after each poll() and each call that gives the driver work;
     /// `now` or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
-    bool settled() const override;
+    bool orders_complete() const override;
     bool can_execute(const Order& order) const override { return limitation_of(order) == Limitation::none; }
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override { orders_.push(order, session_.is_up()); }

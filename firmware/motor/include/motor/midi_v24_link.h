@@ -27,9 +27,7 @@ class MidiV24Link final : public MidiLink {
     bool busy() const override { return state_ != State::idle; }
     bool take_boot() override { return false; }
     void withdraw() override;
-    MidiTrouble trouble() const override {
-        return answers_.several() ? MidiTrouble::several : MidiTrouble::none;
-    }
+    BusFault trouble() const override { return answers_.several() ? BusFault::several : BusFault::none; }
 
   private:
     enum class State : std::uint8_t { idle, waiting_for_quiet, under_way };

@@ -54,7 +54,7 @@ struct Counters {
 
 using registers::gateway::Link;
 
-constexpr bool delivers(Link link) {
+constexpr bool link_is_usable(Link link) {
     return link == Link::unacknowledged || link == Link::up;
 }
 
@@ -72,7 +72,7 @@ class Motor {
 
     /// Every order has been executed or dropped and in_position() and error() are newer than the last order:
     /// a scan may begin. Also true while the link is down (the scan then sees error()).
-    virtual bool settled() const = 0;
+    virtual bool orders_complete() const = 0;
 
     /// Whether the drive supports this order. A table with an unsupported order is refused when it is loaded.
     virtual bool can_execute(const Order& order) const = 0;
@@ -96,7 +96,7 @@ class Motor {
     virtual void give_up_stop() = 0;
 
     /// Starts an access; false if another one is open or the link does not deliver. It comes after all
-    /// orders, and settled() does not wait for it.
+    /// orders, and orders_complete() does not wait for it.
     virtual bool begin_access(const Access& access) = 0;
     virtual AccessState access_state() const = 0;
     virtual std::uint32_t access_value() const = 0;  ///< of a read that is done

@@ -17,7 +17,7 @@ class StepMotor final : public Motor {
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override;
     base::Instant next_poll(base::Instant now) const { return now + base::Milliseconds(1); }
-    bool settled() const override;
+    bool orders_complete() const override;
     bool can_execute(const Order& order) const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;

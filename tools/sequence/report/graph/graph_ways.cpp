@@ -154,7 +154,7 @@ std::vector<GraphWays::Way> GraphWays::ways_of(std::uint8_t step) const {
             add(branch.when, shown(*written, branch, told), true, place_of(branch));
         }
     }
-    for (const Reaction& reaction : reactions_of(machine_, step)) {
+    for (const StepTransition& reaction : reactions_of(machine_, step)) {
         const Truth rest = reaction.when & ~told;
         const std::uint8_t next = reaction.outcome.next;
         const bool stays_in_box = next != step && box_of(next) == box_of(step);
@@ -178,7 +178,7 @@ void GraphWays::name_the_rest(std::vector<Way>& ways) const {
     }
 }
 
-std::string GraphWays::actions(std::uint8_t step, const Reaction& reaction) const {
+std::string GraphWays::actions(std::uint8_t step, const StepTransition& reaction) const {
     table::Outcome outcome = reaction.outcome;
     auto& orders = outcome.orders;
     if (outcome.next != step) {

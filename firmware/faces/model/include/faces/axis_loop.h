@@ -89,11 +89,11 @@ class AxisLoop {
     std::optional<Completion> ended_;  ///< of work_
     bool begun_ = false;               ///< of work_
     bool clears_ = false;              ///< for work_, a reset_error: ERR_STAT has been read
-    std::uint8_t own_write_ = 0;       ///< OwnRegisters::writes_begun of this loop's write
+    std::uint8_t own_write_ = 0;       ///< GatewayRegisters::writes_begun of this loop's write
     std::optional<Work> change_;  ///< a set-point request, parallel to work_; or ended and not yet reported
     std::optional<Completion> change_ended_;
     gateway::SetPoints::Writer change_writer_;
-    std::optional<std::uint8_t> writes_seen_;  ///< OwnRegisters::writes_begun
+    std::optional<std::uint8_t> writes_seen_;  ///< GatewayRegisters::writes_begun
     bool was_enabled_ = false;
     struct CarriedOut {
         Work work;

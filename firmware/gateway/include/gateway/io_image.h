@@ -5,15 +5,15 @@
 #include <optional>
 
 #include "gateway/debouncer.h"
-#include "gateway/forces.h"
+#include "gateway/forced_io.h"
 #include "ports/digital_io.h"
 
 namespace nplc::gateway {
 
 /// The board's inputs and outputs: debounced inputs, forced signals, outputs written only when they change.
-class Signals {
+class IoImage {
   public:
-    Signals(ports::DigitalInputs& inputs, ports::DigitalOutputs& outputs, base::Microseconds debounce)
+    IoImage(ports::DigitalInputs& inputs, ports::DigitalOutputs& outputs, base::Microseconds debounce)
         : inputs_(inputs), outputs_(outputs), debouncer_(debounce), quick_debouncer_(quick(debounce)) {}
 
     void set_debounce(base::Microseconds debounce) {
@@ -43,8 +43,8 @@ class Signals {
     }
     std::uint8_t outputs() const { return written_.value_or(0); }
 
-    Forces& forces() { return forces_; }
-    const Forces& forces() const { return forces_; }
+    ForcedIo& forces() { return forces_; }
+    const ForcedIo& forces() const { return forces_; }
 
   private:
     static base::Microseconds quick(base::Microseconds debounce) {
@@ -55,7 +55,7 @@ class Signals {
     ports::DigitalInputs& inputs_;
     ports::DigitalOutputs& outputs_;
     std::optional<std::uint8_t> written_;
-    Forces forces_;
+    ForcedIo forces_;
     Debouncer debouncer_;
     Debouncer quick_debouncer_;  ///< for the loss of the enable input
 };

@@ -10,7 +10,7 @@ namespace nplc::gateway {
 using registers::gateway::Force;
 
 /// Forced inputs and outputs, with their timeout.
-class Forces {
+class ForcedIo {
   public:
     const Force& inputs() const { return inputs_; }
     const Force& outputs() const { return outputs_; }

@@ -18,13 +18,13 @@ struct PortCounters {
 };
 
 /// The gateway's own registers (REGISTERS.md): reads, and the effects of writes.
-class OwnRegisters {
+class GatewayRegisters {
   public:
     /// The lines whose faults LINE_FAULTS shows, in its order; null: none.
     using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
 
-    OwnRegisters(Gateway& gateway, TableManager& tables, SetPointsPart& set_points, SettingsManager& settings,
-                 const Lines& lines)
+    GatewayRegisters(Gateway& gateway, TableManager& tables, SetPointsPart& set_points,
+                     SettingsManager& settings, const Lines& lines)
         : gateway_(gateway), tables_(tables), set_points_(set_points), settings_(settings), lines_(lines) {}
 
     /// `out`: 4 bytes for one register, or 64 for sixteen. Reading FIRED_SCAN, and a block from TABLE_DATA,
@@ -34,10 +34,10 @@ class OwnRegisters {
     /// Begins a write of 2 or 4 bytes, or more for TABLE_DATA. poll_write() returns its outcome.
     void begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now);
     /// `bytes`: as in begin_write(). The outcome is also in RESULT.
-    Progress poll_write(std::span<const std::uint8_t> bytes, base::Instant now);
+    PendingResult poll_write(std::span<const std::uint8_t> bytes, base::Instant now);
     /// The same for a write to SET_POINT_WRITE, which is independent of the others: SetPoints::serve().
-    Progress serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
-                              base::Instant now);
+    PendingResult serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
+                                   base::Instant now);
     /// The client no longer waits for the write.
     void drop_write();
 
@@ -78,17 +78,17 @@ class OwnRegisters {
     void take_fired();
     void read_table(std::span<std::uint8_t> out);
 
-    Progress write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now);
-    Progress write_value(std::uint8_t reg, std::uint32_t value, base::Instant now);
+    PendingResult write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now);
+    PendingResult write_value(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Result force(std::uint8_t reg, std::uint32_t value, base::Instant now);
-    Progress command(std::uint32_t value, base::Instant now);
-    Progress started(const base::Status& status);
-    Progress reset(base::Instant now);
-    Progress table_command(registers::gateway::Command command, base::Instant now);
-    Progress write_table(std::span<const std::uint8_t> bytes);
+    PendingResult command(std::uint32_t value, base::Instant now);
+    PendingResult started(const base::Status& status);
+    PendingResult reset(base::Instant now);
+    PendingResult table_command(registers::gateway::Command command, base::Instant now);
+    PendingResult write_table(std::span<const std::uint8_t> bytes);
     CommandResult firmware_command(registers::gateway::Command command);
-    Progress write_firmware(std::span<const std::uint8_t> bytes);
-    Progress continue_write(std::span<const std::uint8_t> bytes, base::Instant now);
+    PendingResult write_firmware(std::span<const std::uint8_t> bytes);
+    PendingResult continue_write(std::span<const std::uint8_t> bytes, base::Instant now);
 
     Gateway& gateway_;
     TableManager& tables_;
@@ -103,7 +103,7 @@ class OwnRegisters {
     std::uint8_t writes_begun_ = 0;
     base::Instant write_begun_{};
     Waiting waiting_ = Waiting::nothing;
-    Progress outcome_;
+    PendingResult outcome_;
     std::uint32_t result_ = 0;
     std::uint32_t last_command_ = 0;
 

@@ -1,4 +1,4 @@
-#include "realize.h"
+#include "concretize.h"
 
 #include <fmt/format.h>
 
@@ -323,8 +323,8 @@ bool play(const sequencer::Table& table, std::span<const CourseScan> scans, Cour
 
 }  // namespace
 
-Attempt realize(const Realization& how, std::span<const CourseScan> scans,
-                const std::optional<Overdue>& overdue) {
+Attempt concretize(const Realization& how, std::span<const CourseScan> scans,
+                   const std::optional<Overdue>& overdue) {
     if (scans.empty()) return {.course = Course{}, .conflict = {}};
     constexpr int kMostImages = 8;
     const bool driver = how.assume == Assume::driver;

@@ -1,4 +1,4 @@
-#include "gateway/own_registers.h"
+#include "gateway/gateway_registers.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,8 @@ std::uint32_t in_milliseconds(base::Microseconds time) {
 
 }  // namespace
 
-[[gnu::noinline]] void OwnRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now) {
+[[gnu::noinline]] void GatewayRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out,
+                                              base::Instant now) {
     if (reg == TABLE_DATA && out.size() > kRegisterBytes) return read_table(out);
     if (kHasSetPoints && reg == SET_POINT_POINTER && out.size() > kRegisterBytes)
         return set_points_.read_window(out);
@@ -32,7 +33,7 @@ std::uint32_t in_milliseconds(base::Microseconds time) {
     }
 }
 
-void OwnRegisters::read_table(std::span<std::uint8_t> out) {
+void GatewayRegisters::read_table(std::span<std::uint8_t> out) {
     const std::span<const std::uint8_t> table = tables_.active();
     const std::size_t begin = std::min<std::size_t>(pointer_, table.size());
     const auto part = table.subspan(begin, std::min(out.size(), table.size() - begin));
@@ -42,7 +43,7 @@ void OwnRegisters::read_table(std::span<std::uint8_t> out) {
     pointer_ += static_cast<std::uint32_t>(out.size());
 }
 
-std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
+std::uint32_t GatewayRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= FIRED && reg < FIRED + kFiredWords) return fired(reg - std::size_t{FIRED});
     if (reg >= LOG && reg < LOG + 2 * kLogEntries) return log_value(reg);
     if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
@@ -62,7 +63,7 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     return table_value(reg);
 }
 
-std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
+std::uint32_t GatewayRegisters::table_value(std::uint8_t reg) const {
     switch (reg) {
         case IDENTITY:
             return kIdentity;
@@ -116,9 +117,9 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
     }
 }
 
-std::uint32_t OwnRegisters::live_value(std::uint8_t reg, base::Instant now) const {
+std::uint32_t GatewayRegisters::live_value(std::uint8_t reg, base::Instant now) const {
     const sequencer::State& state = gateway_.state();
-    const Forces& forces = gateway_.forces();
+    const ForcedIo& forces = gateway_.forces();
     switch (reg) {
         case STATUS:
             return status();
@@ -159,7 +160,7 @@ std::uint32_t OwnRegisters::live_value(std::uint8_t reg, base::Instant now) cons
     }
 }
 
-std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
+std::uint32_t GatewayRegisters::count_value(std::uint8_t reg) const {
     if (reg == MESSAGES) return port_.messages;
     if (reg == REFUSED) return port_.refused;
     const auto counters =
@@ -167,7 +168,7 @@ std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
     return counters[reg - LINK_LOSSES];
 }
 
-std::uint32_t OwnRegisters::time_value(std::uint8_t reg) const {
+std::uint32_t GatewayRegisters::time_value(std::uint8_t reg) const {
     switch (reg) {
         case POLL_WORST:
             return gateway_.polls().worst();
@@ -180,7 +181,7 @@ std::uint32_t OwnRegisters::time_value(std::uint8_t reg) const {
     }
 }
 
-std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {
+std::uint32_t GatewayRegisters::line_faults(const ports::SerialPort* line) const {
     constexpr std::uint32_t kMost = 0xFFFF;
     if (line == nullptr) return 0;
     const ports::LineFaults faults = line->faults();
@@ -188,7 +189,7 @@ std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {
 }
 
 /// From the highest bit down, each shifted into its place: nothing has to be kept beside.
-std::uint32_t OwnRegisters::status() const {
+std::uint32_t GatewayRegisters::status() const {
     static_assert(kStopUnconfirmed == 1U << 19 && kLinkDelivers == 1U << 3 && kRunState == 7);
     const motor::Motor& motor = gateway_.motor();
     std::uint32_t bits = gateway_.stop_unconfirmed() ? 1U : 0U;
@@ -207,18 +208,18 @@ std::uint32_t OwnRegisters::status() const {
     bits = 2 * bits + (gateway_.safe_reason() != SafeReason::none ? 1U : 0U);
     bits = 2 * bits + (motor.in_position() ? 1U : 0U);
     bits = 2 * bits + (motor.error() ? 1U : 0U);
-    bits = 2 * bits + (motor::delivers(motor.link()) ? 1U : 0U);
+    bits = 2 * bits + (motor::link_is_usable(motor.link()) ? 1U : 0U);
     return bits << 3 | static_cast<std::uint32_t>(gateway_.run_state());
 }
 
-void OwnRegisters::take_fired() {
+void GatewayRegisters::take_fired() {
     fired_ = {.scan = gateway_.scans(),
               .step = gateway_.scanned_step(),
               .key = gateway_.scanned_key(),
               .any = gateway_.scans() != 0};
 }
 
-std::uint32_t OwnRegisters::fired(std::size_t word) const {
+std::uint32_t GatewayRegisters::fired(std::size_t word) const {
     const sequencer::Table& table = gateway_.table();
     std::uint32_t bits = 0;
     for (std::size_t i = 0; fired_.any && i < 32; ++i) {
@@ -230,7 +231,7 @@ std::uint32_t OwnRegisters::fired(std::size_t word) const {
     return bits;
 }
 
-std::uint32_t OwnRegisters::log_value(std::uint8_t reg) const {
+std::uint32_t GatewayRegisters::log_value(std::uint8_t reg) const {
     const unsigned index = reg - unsigned{LOG};
     const EventLog::Entry& entry = gateway_.log().slot(index / 2);
     if (index % 2 == 0) return entry.milliseconds;

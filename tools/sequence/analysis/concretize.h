@@ -34,7 +34,7 @@ struct Attempt {
 
 /// Chooses images and times for a course of the explorer that satisfy timer, delays and debouncing, and
 /// executes it on the engine.
-Attempt realize(const Realization& how, std::span<const CourseScan> scans,
-                const std::optional<Overdue>& overdue);
+Attempt concretize(const Realization& how, std::span<const CourseScan> scans,
+                   const std::optional<Overdue>& overdue);
 
 }  // namespace nplc::verify

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/bytes.h"
-#include "gateway/own_registers.h"
+#include "gateway/gateway_registers.h"
 
 namespace nplc::gateway {
 
@@ -40,14 +40,14 @@ bool is_known(std::uint8_t number) {
 
 }  // namespace
 
-void OwnRegisters::poll() {
+void GatewayRegisters::poll() {
     tables_.poll();
     settings_.poll();
     set_points_.poll();
     if constexpr (kHasFirmware) firmware_.poll(gateway_.uptime(), port_.messages != 0);
 }
 
-base::Instant OwnRegisters::next_poll(base::Instant now) {
+base::Instant GatewayRegisters::next_poll(base::Instant now) {
     base::Instant next = std::min(tables_.next_poll(now), settings_.next_poll(now));
     if (kHasSetPoints) next = std::min(next, set_points_.next_poll(now));
     switch (waiting_) {
@@ -65,7 +65,7 @@ base::Instant OwnRegisters::next_poll(base::Instant now) {
     return next;
 }
 
-void OwnRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {
+void GatewayRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {
     drop_write();
     written_ = reg;
     ++writes_begun_;
@@ -73,12 +73,12 @@ void OwnRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> b
     outcome_ = write(reg, bytes, now);
 }
 
-void OwnRegisters::drop_write() {
+void GatewayRegisters::drop_write() {
     if (waiting_ == Waiting::activation || waiting_ == Waiting::reset) tables_.drop_activation();
     waiting_ = Waiting::nothing;
 }
 
-Progress OwnRegisters::poll_write(std::span<const std::uint8_t> bytes, base::Instant now) {
+PendingResult GatewayRegisters::poll_write(std::span<const std::uint8_t> bytes, base::Instant now) {
     if (!outcome_) outcome_ = continue_write(bytes, now);
     if (!outcome_) return std::nullopt;
     waiting_ = Waiting::nothing;
@@ -86,14 +86,14 @@ Progress OwnRegisters::poll_write(std::span<const std::uint8_t> bytes, base::Ins
     return outcome_;
 }
 
-Progress OwnRegisters::serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
-                                        base::Instant now) {
-    const Progress outcome = set_points_.serve(writer, bytes, now);
+PendingResult GatewayRegisters::serve_set_points(SetPointsPart::Writer& writer,
+                                                 std::span<const std::uint8_t> bytes, base::Instant now) {
+    const PendingResult outcome = set_points_.serve(writer, bytes, now);
     if (outcome) result_ = outcome.word() | (std::uint32_t{SET_POINT_WRITE} << 8);
     return outcome;
 }
 
-Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base::Instant now) {
+PendingResult GatewayRegisters::continue_write(std::span<const std::uint8_t> bytes, base::Instant now) {
     switch (waiting_) {
         case Waiting::room:
             if (now - write_begun_ > kLongestWait) return CommandResult{Result::busy};
@@ -101,7 +101,7 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
         case Waiting::activation:
             return tables_.poll_activation(now);
         case Waiting::reset: {
-            const Progress active = tables_.poll_activation(now);
+            const PendingResult active = tables_.poll_activation(now);
             reset_asked_ = active.is_done();
             return active;
         }
@@ -116,7 +116,8 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
     return CommandResult{Result::busy};
 }
 
-Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {
+PendingResult GatewayRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> bytes,
+                                      base::Instant now) {
     if (reg == TABLE_DATA) return bytes.size() < 4 ? CommandResult{Result::bad_length} : write_table(bytes);
     if (kHasFirmware && reg == FIRMWARE_DATA) return write_firmware(bytes);
     const bool is_request = kHasSetPoints && reg == SET_POINT_WRITE;
@@ -126,7 +127,7 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
     return write_value(reg, value, now);
 }
 
-Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
+PendingResult GatewayRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     constexpr std::uint64_t kLow = 0xFFFF'FFFF;
     switch (reg) {
         case SCAN_WORST:
@@ -169,7 +170,7 @@ Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::
     return CommandResult{is_known(reg) ? Result::read_only : Result::no_register};
 }
 
-Result OwnRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant now) {
+Result GatewayRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const std::uint32_t pins = reg == FORCE_IN ? 0x3F : 0x0F;
     if ((value & ~(pins | (pins << 8))) != 0) return Result::bad_value;
     const Force forced = Force::of_register(value);
@@ -181,7 +182,7 @@ Result OwnRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant 
     return Result::done;
 }
 
-Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
+PendingResult GatewayRegisters::command(std::uint32_t value, base::Instant now) {
     last_command_ = value;
     if (value > 0xFF) return CommandResult{Result::bad_value};
     const auto command = static_cast<Command>(value);
@@ -199,7 +200,7 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
             return CommandResult{};
         case Command::safe:
             tables_.abandon_upload();
-            gateway_.make_safe(now);
+            gateway_.enter_safe_state_by_command(now);
             return CommandResult{};
         case Command::give_up_stop:
             gateway_.give_up_stop();
@@ -229,7 +230,7 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
 }
 
 /// In service, where it is refused, it is marked for the next start.
-Progress OwnRegisters::started(const base::Status& status) {
+PendingResult GatewayRegisters::started(const base::Status& status) {
     if (!gateway_.needs_mark() || !(status.ok() || gateway_.is_in_service()))
         return command_result_of(status);
     settings_.begin_mark();
@@ -239,7 +240,7 @@ Progress OwnRegisters::started(const base::Status& status) {
 }
 
 /// The board may stand still for an erasure: only while nothing can run.
-CommandResult OwnRegisters::firmware_command(Command command) {
+CommandResult GatewayRegisters::firmware_command(Command command) {
     if (command == Command::firmware_abort) return firmware_.abandon();
     if (command == Command::firmware_commit)
         return gateway_.is_in_service() ? firmware_.commit(upload_bytes_, upload_crc_)
@@ -250,7 +251,7 @@ CommandResult OwnRegisters::firmware_command(Command command) {
     return begun;
 }
 
-Progress OwnRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
+PendingResult GatewayRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
     const Result result = firmware_.write(bytes);
     if (result != Result::busy) return CommandResult{result};
     waiting_ = Waiting::room;
@@ -258,7 +259,7 @@ Progress OwnRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
 }
 
 /// After a reset the stored table becomes the active one, which is allowed only while the motor stands still.
-Progress OwnRegisters::reset(base::Instant now) {
+PendingResult GatewayRegisters::reset(base::Instant now) {
     if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
     if (tables_.stored().length != 0 && !tables_.stored_is_active()) {
         tables_.begin_activation(now);
@@ -269,7 +270,7 @@ Progress OwnRegisters::reset(base::Instant now) {
     return CommandResult{};
 }
 
-Progress OwnRegisters::table_command(Command command, base::Instant now) {
+PendingResult GatewayRegisters::table_command(Command command, base::Instant now) {
     switch (command) {
         case Command::upload_begin:
             pointer_ = 0;
@@ -288,7 +289,7 @@ Progress OwnRegisters::table_command(Command command, base::Instant now) {
     return std::nullopt;
 }
 
-Progress OwnRegisters::write_table(std::span<const std::uint8_t> bytes) {
+PendingResult GatewayRegisters::write_table(std::span<const std::uint8_t> bytes) {
     if (pointer_ + bytes.size() > tables_.capacity()) return CommandResult{Result::no_space};
     const base::Status status = tables_.upload(pointer_, bytes);
     if (!status && status.error() == base::Error::busy) {

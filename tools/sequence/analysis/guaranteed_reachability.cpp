@@ -1,4 +1,4 @@
-#include "surely.h"
+#include "guaranteed_reachability.h"
 
 #include <algorithm>
 #include <array>
