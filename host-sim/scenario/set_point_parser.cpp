@@ -65,20 +65,22 @@ void ActionParser::set_points(Actions& list, Time after) {
 
 /// Length = 90 mm, Length = 90 mm +- 1 mm, Dwell < 2 s: without a unit in its own.
 void ConditionParser::set_point_value(Condition& condition) {
-    using Relation = Condition::Relation;
     const set_points::SetPoint& point = names_.set_points.values[condition.value.index];
     const std::size_t begin = reader_.mark();
     const Measure wanted = point_measure(point, "a number");
     condition.operand = wanted.value;
     condition.unit = wanted.unit;
     if (reader_.take("+-")) {
-        if (condition.relation != Relation::equal) reader_.refuse("a tolerance (+-) goes with = only");
+        if (condition.relation != Condition::Relation::equal)
+            reader_.refuse("a tolerance (+-) goes with = only");
         condition.tolerance = point_measure(point, "a number after +-").value;
         if (condition.tolerance < 0) reader_.refuse("a tolerance is not negative; write it without the sign");
         condition.tolerance += kRounded;
         return;
     }
-    if (condition.relation != Relation::equal && condition.relation != Relation::unequal) return;
+    if (condition.relation != Condition::Relation::equal &&
+        condition.relation != Condition::Relation::unequal)
+        return;
     const set_points::Reading exact = set_points::read_value(point, reader_.source_since(begin));
     if (!exact.error.empty()) reader_.refuse_at(begin, exact.error);
     condition.operand = exact.value;
