@@ -16,7 +16,10 @@ from machine import until
 EXAMPLE = ""
 MAC34_1 = 2  # of setting motor_kind
 START, GRIP, LAMP = 0, 1, 8
-TURNS = 12  # 60 mm at 5 mm a revolution
+TURNS = 0.2
+# The example goes 60 mm at 1500 rpm. The emulated core's clock loses the ticks in which the emulator has no processor, and a
+# drive that goes on meanwhile is further than its speed allows: the driver calls that a jump, from 500 increments on.
+SLOWLY = (("P2 := 60 mm", "P2 := 1 mm"), ("V1 := 1500 rpm", "V1 := 10 rpm"), ("WITHIN T#3s", "WITHIN T#60s"))
 COUNTS, INCREMENTS = 4096, 10000  # a revolution
 HOMING = """PROGRAM P
 MOTOR MAC140;
@@ -35,6 +38,16 @@ class Midi(image_case.ImageCase):
         self.ctl("reset")
         until(lambda: self.ctl("status")["link"], lambda link: link == "up")
 
+    def compile_example(self):
+        with open(EXAMPLE, encoding="utf-8") as file:
+            text = file.read()
+        for old, new in SLOWLY:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        with open(self.path("slow.seq"), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.compile(self.path("slow.seq"))
+
     def increments(self):
         """As the module keeps them when a motion has ended."""
         with open(self.path("eeprom"), encoding="utf-8") as file:
@@ -47,7 +60,7 @@ class Midi(image_case.ImageCase):
         return json.loads(told.stdout.splitlines()[-1])["registers"][0]["raw"]
 
     def test_a_table_is_uploaded_and_leads_the_drive_after_a_reset(self):
-        self.ctl("upload", self.compile(EXAMPLE), "--run")
+        self.ctl("upload", self.compile_example(), "--run")
         self.ctl("stop")
         self.ctl("reset")
         self.shows(LAMP)
@@ -62,13 +75,13 @@ class Midi(image_case.ImageCase):
         self.assertEqual((status["state"], status["error"]), ("running", False))
 
     def test_where_the_drive_stands_is_read_through_the_gateway(self):
-        self.ctl("upload", self.compile(EXAMPLE), "--run")
+        self.ctl("upload", self.compile_example(), "--run")
         self.shows(LAMP)
         self.board.drive_input(START, 1)
         self.shows(GRIP)
         until(self.increments, lambda there: there == TURNS * INCREMENTS)
         self.ctl("stop")
-        self.assertEqual(self.counts(), TURNS * COUNTS)
+        self.assertAlmostEqual(self.counts(), TURNS * COUNTS, delta=1)
 
     def test_a_table_for_a_jvl_motor_is_refused_with_the_reason(self):
         with open(self.path("homing.seq"), "w", encoding="utf-8") as file:
