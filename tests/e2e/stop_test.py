@@ -28,6 +28,7 @@ GATEWAY = 128
 OPERATOR, STATUS, SCANS, RESULT, COMMAND = 12, 16, 25, 31, 48
 RUN, STOP, HOLD = 1, 2, 6
 WITHIN = 1.0  # seconds in which a stop takes effect
+FLOODING = int(os.environ.get("NPLC_FLOODING", "200"))  # clients
 HALTED = 1.5  # seconds, longer than the 1 s that a command may wait to be read
 
 
@@ -244,8 +245,8 @@ class Others(Watching):
             self.client()
         self.stops()
 
-    def test_two_hundred_that_flood(self):
-        flood = Flood(self.endpoint, 200)
+    def test_a_flood(self):
+        flood = Flood(self.endpoint, FLOODING)
         self.addCleanup(flood.end)
         time.sleep(1)
         for _ in range(3):
