@@ -238,7 +238,7 @@ Progress OwnRegisters::started(const base::Status& status) {
     return std::nullopt;
 }
 
-/// The board may stand still for an erasure: only while nothing can run.
+/// The board may halt during an erasure: only while nothing can run.
 CommandResult OwnRegisters::firmware_command(Command command) {
     if (command == Command::firmware_abort) return firmware_.abandon();
     if (command == Command::firmware_commit)

@@ -63,7 +63,8 @@ struct Completion {
     Result result = Result::done;
     std::uint16_t detail = 0;  ///< as in RESULT: the term of a table's fault; of seat_taken see REGISTERS.md
     std::uint32_t value = 0;   ///< the motor register that was read
-    /// Of a stop with stop_unconfirmed: the axis's loop has not said how it ended. It is still carried out.
+    /// Of a stop with stop_unconfirmed: the axis's loop has not reported its outcome. It is still carried
+    /// out.
     bool is_axis_silent = false;
 };
 

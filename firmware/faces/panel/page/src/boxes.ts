@@ -1,4 +1,4 @@
-// What is drawn as one box: a step with the copies of it that the compiler made for what it remembers.
+// Steps that are drawn as one box: a step with the copies that the compiler made of it.
 import type { Step, Term, Way } from "./table";
 
 export interface NamedStep {

@@ -101,7 +101,7 @@ export interface Way {
   from: number;
   to: number;
   terms: Term[];
-  isError: boolean; // all of its terms want ERROR
+  isError: boolean; // all of its terms require ERROR
 }
 
 export interface Step {
