@@ -143,7 +143,7 @@ class LineParser {
     void expect(std::optional<Time> at = {}) {
         if (conditions_.names().motor_alone)
             reader_.refuse_next(
-                "nobody is told here what an expectation becomes; rehearse it with nanoplc-sim");
+                "expectations are not checked here; rehearse the scenario with nanoplc-sim");
         scenario_.expectations.push_back(ExpectationParser(reader_, conditions_).expectation(at));
         scenario_.expectations.back().line = line_;
     }

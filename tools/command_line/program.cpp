@@ -71,7 +71,7 @@ void add_line_options(arguments::App& app, Common& common, const std::string& of
 
 void add_password_option(arguments::App& app, Common& common) {
     app.add_option("--password-file", common.password_file,
-                   "A file whose first line a gateway's port wants before it takes changes")
+                   "A file whose first line is the password that a gateway's port requires for changes")
         ->envname(variable(common, "PASSWORD_FILE"));
 }
 

@@ -9,9 +9,10 @@
 /// What a motor is doing by what it was ordered.
 namespace nplc::verify {
 
-/// What the motor was ordered to do, as far as it decides whether it may move: `moving` in properties. In
-/// velocity, gear and position modes V_SOLL = 0 ends a motion, which goes on when V_SOLL is something again;
-/// a homing and the torque modes do not heed it (001 §4.4). In position mode a new target is a move.
+/// The state of the motor by its orders, as far as it decides whether the motor may move: `moving` in
+/// properties. In velocity, gear and position modes V_SOLL = 0 ends a motion, which continues when V_SOLL is
+/// not 0 any more; homing and the torque modes are independent of V_SOLL (001 §4.4). In position mode a new
+/// target is a move.
 enum class Motion : std::uint8_t {
     none,  ///< INIT
     to_place,

@@ -428,7 +428,7 @@ class Checker {
         return place;
     }
 
-    /// Known in the last of the states that is judged. Keeps of the branch what warn_never() tells.
+    /// Final after the last of the states. Stores for the branch what warn_never() reports.
     bool is_never_taken(const ast::Branch& branch, bool sound, const Truth& when, const Truth& own,
                         const std::vector<Rule>& up_to_it) {
         Untaken& untaken = untaken_[&branch];

@@ -79,7 +79,7 @@ class Counts {
         const Action* preset = nullptr;
     };
 
-    /// Copies of a step share their conditions: it is told if none of them goes on.
+    /// Copies of a step share their conditions: reported if no copy goes on.
     void judge(const StepPlan& step, const Rule& rule) {
         const Count& count = counts_.at(step.number);
         if (step.is_helper || (!count.zero && !count.runs)) return;

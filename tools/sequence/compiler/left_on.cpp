@@ -1,4 +1,4 @@
-// Outputs that SET switched on and that a guard or an ERROR leaves on for good.
+// Outputs that SET switched on and that stay on after a guard or an ERROR.
 #include <fmt/format.h>
 
 #include <array>
@@ -73,7 +73,7 @@ class OnWalk {
     }
 
   private:
-    /// What ON says for many steps, ON ERROR included.
+    /// The condition of an ON for many steps, or of ON ERROR.
     bool is_of_on(Span condition) const {
         return is_guard(program_, condition) ||
                (program_.on_error && program_.on_error->span == condition && condition.length != 0);
@@ -121,7 +121,7 @@ class OnWalk {
     const Plan& plan_;
     const Symbols& symbols_;
     Report& report_;
-    std::uint8_t reset_somewhere_ = 0;  ///< of others W024 tells
+    std::uint8_t reset_somewhere_ = 0;  ///< outputs for which W024 is reported
     const StepPlan* step_ = nullptr;
     std::set<std::pair<std::uint32_t, std::size_t>> said_;
 };

@@ -233,7 +233,7 @@ class MotorWalk {
                            writes, place, first);
     }
 
-    /// In the list behind ENTRY, where `first` could not stand as it is.
+    /// In an ENTRY, where `first` could not be inserted as it is.
     bool is_in_entry(const Send& send) const {
         constexpr std::string_view kWord = "ENTRY";
         std::string_view before = source_.substr(0, send.span.offset);

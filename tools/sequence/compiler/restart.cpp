@@ -1,4 +1,4 @@
-// Whether a machine moves without being told: after a fault, after a guard, at power-up.
+// Whether a machine moves without a command: after a fault, after a guard, at power-up.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,9 +62,9 @@ struct Moved {
 /// By step, the inputs with which it can be active.
 using Reached = std::array<Images, 64>;
 
-/// Whether the motor may move again while no input changes: an acknowledgement is an input that had to, or
-/// that must be on and is asked nowhere else. Steps that remember an edge are copies here, so that R_TRIG and
-/// F_TRIG hold for no input that stays.
+/// Whether the motor may move again while no input changes. An acknowledgement is an input that must change,
+/// or that must be on and is tested nowhere else. Steps that remember an edge are separate copies here, so
+/// that R_TRIG and F_TRIG do not hold for an input that stays.
 class Restart {
   public:
     Restart(const ast::Program& program, const Plan& plan, std::optional<std::uint8_t> fault, Report& report)

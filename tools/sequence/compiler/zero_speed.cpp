@@ -24,7 +24,7 @@ struct Source {
 
 struct SpeedState {
     bool known = false;
-    std::set<Source> sources;  ///< none after a STOP, of which W004 tells elsewhere
+    std::set<Source> sources;  ///< none after a STOP, for which W004 is reported elsewhere
 
     bool is_known() const { return known; }
     bool join(const SpeedState& other) {

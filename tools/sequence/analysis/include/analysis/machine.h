@@ -50,7 +50,7 @@ struct Group {
     ImageSet images;
     Delay delay;                ///< driver only
     bool error = false;         ///< driver only: in all its images, else in none
-    bool in_pos = false;        ///< of all its images, if the machine tells motion
+    bool in_pos = false;        ///< of all its images, if the machine tracks motion
     bool disturbs = false;      ///< ERROR in all its images, if the machine times moves
     bool resets_error = false;  ///< driver only: sends "reset error"
 };
