@@ -227,7 +227,7 @@ class Clauses {
                text;
     }
 
-    /// And the orders to the motion that they name.
+    /// The facts of all scans; also collects the orders that they name.
     std::string facts() {
         const std::vector<Case> cases = cases_of_steps();
         for (const Case& one : cases) {

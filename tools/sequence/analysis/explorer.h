@@ -284,13 +284,12 @@ class Explorer {
     std::vector<std::uint32_t> first_edge_;  ///< by node, and the end
     std::vector<std::uint32_t> first_back_;  ///< by node, and the end; once they are asked for
     std::vector<Node> back_;                 ///< from where an edge leads to it
-    /// With a deadline, and nothing left of the timer: what can have passed at a place, in parts that do not
-    /// touch.
+    /// With a deadline and a stopped timer: the times that can have passed at a place, as disjoint ranges.
     std::unordered_map<std::uint64_t, std::vector<Bounds>> covered_;
     mutable std::uint64_t work_ = 0;       ///< with zones
     std::vector<std::vector<Node>> open_;  ///< guided: by the length of the shortest course through them
     bool has_all_edges_ = true;
-    /// By group, and what the motor is: what it can be then, a bit each.
+    /// By group and state of the motor: the possible next states of the motor, as bits.
     std::vector<std::array<std::uint8_t, 4>> next_motors_;
     std::vector<Node> first_uses_;  ///< by group
     std::vector<Hit> hits_;

@@ -55,13 +55,13 @@ Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::
 bool begins_motion(const sequencer::MotorOrder& order);
 bool ends_motion(const sequencer::MotorOrder& order);
 
-/// They begin a move to a place or a homing, and nothing after it ends it.
+/// They begin a move to a position or a homing that no later order among them ends.
 bool begins_move(std::span<const sequencer::MotorOrder> orders);
 
 /// Registers that are 0 whenever they are used, or may be: V1..V8 and V_SOLL count.
 using ZeroRegisters = std::bitset<128>;
 
-/// As far as it decides whether INPOS can come.
+/// The motor's state, as far as it decides whether INPOS can come.
 struct MotorState {
     enum class Mode : std::uint8_t { unknown, init, velocity, position, silent };
     enum class Speed : std::uint8_t {

@@ -62,8 +62,8 @@ std::vector<Costs> costs_of(std::span<const CourseScan> scans, const ChangeCosts
     return costs;
 }
 
-/// Of all images that a course can have, those with the least cost of changes; ERROR costs a little, so that
-/// none is there without need.
+/// The possible images with the least cost of changes. ERROR has a small cost, so that it appears only where
+/// it is needed.
 Images calm_images(std::span<const CourseScan> scans, const ChangeCosts& changes) {
     const std::vector<Costs> costs = costs_of(scans, changes);
     Images images(scans.size());

@@ -440,8 +440,8 @@ class Checker {
         return state_ == 0 && !untaken.is_taken;
     }
 
-    /// Where the branches are that take its cases, each case once. Of the first ones only: there may be tens
-    /// of thousands, and no more are shown.
+    /// The branches that take its cases, each case once; only for the first kMost branches, since more are
+    /// not shown.
     std::vector<Span> takers(Truth left, const std::vector<Rule>& up_to_it) {
         constexpr unsigned kMost = 1'000;
         std::vector<Span> found;

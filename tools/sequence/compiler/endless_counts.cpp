@@ -57,7 +57,7 @@ class Counts {
         for (bool changed = true; changed;) {
             changed = false;
             for (const StepPlan& step : plan_.steps) {
-                // What stays in the step without a rule keeps the counter.
+                // A scan without a true rule keeps step and counter.
                 for (const Rule& rule : step.rules) {
                     const Count& before = counts_.at(step.number);
                     if ((rule.when & before.cases()).none()) continue;

@@ -291,7 +291,7 @@ class PlaceWalk {
                         std::abs(from.counts.high - to.counts.low));
     }
 
-    /// It leads, with the timer preset, to a step that INPOS leaves, and the timer for another one.
+    /// It presets the timer and leads to a step with a branch for INPOS and another one for the timer.
     bool waits_with_limit(const Rule& entering) const {
         if (symbols_.drive != nullptr || !entering.action.timer || !entering.action.next) return false;
         const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& each) {

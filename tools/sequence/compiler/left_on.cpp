@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kOutputCount = 4;
 
-/// By output, where it was SET; length 0: it is off on each way.
+/// By output, the SET that switched it on; length 0: it is off on every way.
 struct OnState {
     bool known = false;
     std::array<Span, kOutputCount> set_at{};

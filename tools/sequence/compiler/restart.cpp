@@ -186,7 +186,8 @@ class Restart {
         return inputs;
     }
 
-    /// It needs a button for just that. What starts a move beside is no acknowledgement of a guard.
+    /// It requires a button that is used for this only. An input that also starts a move does not acknowledge
+    /// a guard.
     bool is_acknowledged(const Rule& rule, bool by_guard) const {
         if (by_guard && motion_of(rule) != nullptr) return false;
         const Images when = images_of(rule.when, true);

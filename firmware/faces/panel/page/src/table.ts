@@ -1,4 +1,4 @@
-// The sequence table (001 §6.1): terms of 8 bytes, decoded as firmware/sequencer does.
+// The sequence table (001 §6.1): terms of 8 bytes, decoded as the folder sequencer does.
 
 export const kNoSwitch = 0x3e;
 export const kEnd = 0x3f;
