@@ -88,7 +88,7 @@ export interface AxisInfo {
 export interface SetPoint {
   name: string;
   unit: string; // "" without one
-  value: number; // wanted values, which are stored
+  value: number; // the wanted value, which is stored
   in_force: number;
   lowest: number;
   highest: number;
