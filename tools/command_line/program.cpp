@@ -44,7 +44,7 @@ void try_to(Common& common, const std::function<void()>& what) {
         fail(common, failure.exit_code(), failure.what(), failure.details());
     } catch (const mactalk_client::Ended& error) {
         fail(common, error.exit_code(), error.what());
-    } catch (const std::system_error&) {  // of fmt::print; told below
+    } catch (const std::system_error&) {  // of fmt::print; reported below
     }
 }
 

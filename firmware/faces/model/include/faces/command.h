@@ -22,7 +22,7 @@ struct Command {
         reset_error,  ///< clears the error bits of ERR_STAT and keeps its settings; on a MIDI drive as 01h
                       ///< does
         take_seat,
-        take_over_seat,  ///< whoever has it
+        take_over_seat,  ///< from any holder
         leave_seat,
     };
     Kind kind = Kind::write_own;
