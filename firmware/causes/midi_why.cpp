@@ -165,7 +165,7 @@ constexpr Rule<MidiFacts> kDrive[] = {
      "It refused a command that it should take.", "",
      "Look at its model and its software release; {acknowledge}."},
     {"drive_unclear", stops, [](M m) { return m.has_fault(DriveFault::unclear); },
-     "Nobody knows whether it took a command, so it was told to stop.", "",
+     "It is unknown whether it took a command, so it was told to stop.", "",
      "Look at the line and the position; {acknowledge}."},
     {"drive_bad_value", stops, [](M m) { return m.has_fault(DriveFault::bad_value); },
      "The sequence gave an order that it cannot do: {limitation}.", "", "Change the program."},
@@ -204,7 +204,7 @@ constexpr Rule<MidiFacts> kDrive[] = {
     {"torque_small", hinders, [](M m) { return m.has_little_torque(); },
      "The torque is limited to {percent} %.", "TORQUE", "`macreg midi set TORQUE 100%` gives all of it."},
     {"does_not_follow", stops, [](M m) { return m.is_held(); },
-     "It wants to move and does not: the shaft is held, or the load is more than the torque.",
+     "It was ordered to move and does not: the shaft is held, or the load is more than the torque.",
      "TERMINALS TORQUE SPEED",
      "Free the shaft, raise TORQUE, or lower SPEED and lengthen RAMP; `macreg midi stop --emergency` ends the "
      "attempt."},

@@ -38,7 +38,7 @@ constexpr Rule<Facts> kUnknown{
     "MODE_REG P_SOLL P_IST V_SOLL A_SOLL T_SOLL V_IST VF_OUT ERR_STAT",
     "Watch what it does: `macreg watch MODE_REG P_SOLL {=P_FNC} P_IST V_IST VF_OUT FLWERR`."};
 
-/// A remedy that lets the motor turn names what must be done before.
+/// Puts the necessary precautions before a remedy that lets the motor turn.
 void begin_safely(const Facts& facts, Lets lets, Finding& finding) {
     if (facts.moves()) return;
     if (lets == Lets::turn) finding.remedy.insert(0, facts.before_it_turns());
@@ -84,7 +84,7 @@ std::vector<Finding> why(const Condition& condition) {
         pass_gateway(facts, all.back());
     }
     if (!facts.moves() && only_tell(all)) all.push_back(finding_of(kUnknown, facts));
-    // That it moves comes first.
+    // A finding that it moves comes first.
     std::stable_sort(all.begin() + (facts.moves() ? 1 : 0), all.end(),
                      [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
     return all;

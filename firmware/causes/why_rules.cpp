@@ -283,7 +283,7 @@ constexpr Rule<Facts> kRules[] = {
      "`nanoctl status` and `nanoctl watch` show in which step the sequence is, and whether it runs.",
      Lets::turn},
     {"passive", stops, [](F f) { return f.mode() == kInit && !f.gateway() && !f.has_any_error(); },
-     "The motor is in INIT_MODE: passive, nobody told it to move.", "MODE_REG STARTMODE",
+     "The motor is in INIT_MODE: passive, no motion was ordered.", "MODE_REG STARTMODE",
      "{start} {=STARTMODE} is the mode after power-up.", Lets::turn},
     {"profile_apart", stops, [](F f) { return f.has_arrived() && f.is_apart(); },
      "The motor's profile has reached the target ({P_SOLL}), but by P_IST the shaft is elsewhere ({P_IST}): "
@@ -417,8 +417,8 @@ constexpr Rule<Facts> kRules[] = {
      "The user interface is set to FastMAC, which acts if it was so at the last reset: whoever is wired to it "
      "(an expansion module, a PLC) may set modes and targets at any time.",
      "CNTRL_BITS",
-     "If values change by themselves, stop that one first; {safe enter} makes the motor passive and deaf to "
-     "it."},
+     "If values change by themselves, stop that one first; {safe enter} makes the motor passive, and it then "
+     "ignores FastMAC."},
 };
 
 }  // namespace

@@ -275,8 +275,8 @@ void Gateway::hold_when_settled(base::Instant now) {
 }
 
 /// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged the
-/// error. The motor is told to stop at once, for it may hear though it is not heard, and again when the link
-/// is back: the first stop may have been given up.
+/// error. The motor is stopped at once, since it may still receive although nothing is received from it, and
+/// again when the link is back: the first stop may have been given up.
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = motor_.link();
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);

@@ -239,7 +239,7 @@ PendingResult GatewayRegisters::started(const base::Status& status) {
     return std::nullopt;
 }
 
-/// The board may stand still for an erasure: only while nothing can run.
+/// The board may halt during an erasure: only while nothing can run.
 CommandResult GatewayRegisters::firmware_command(Command command) {
     if (command == Command::firmware_abort) return firmware_.abandon();
     if (command == Command::firmware_commit)

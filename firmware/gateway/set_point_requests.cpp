@@ -1,4 +1,4 @@
-// A write to SET_POINT_WRITE: checked as a whole, stored as a whole, then wanted.
+// A write to SET_POINT_WRITE: checked and stored as a whole; then its values are the wanted ones.
 #include <algorithm>
 
 #include "base/bytes.h"

@@ -113,7 +113,8 @@ void SettingsManager::begin_saving() {
     is_saving_ = begun_.ok();
 }
 
-/// What is being stored already is stored with it. Damaged settings are stored by nobody but the user.
+/// Changes that are already being stored are stored with it. Damaged settings are replaced only when the user
+/// saves.
 void SettingsManager::store_wait(SafeReason reason) {
     if (damaged_) return;
     if (!is_saving_) saving_ = stored_;

@@ -268,7 +268,7 @@ void MidiMotor::on_refused(base::Instant now) {
     retry_at_ = now + session_.stop_pause();
 }
 
-/// It moves, whatever the driver has concluded before.
+/// The shaft moves, contrary to the driver's former conclusion.
 void MidiMotor::on_refused_motion(base::Instant now) {
     motion_.wait_for_rest(refusals_ == 0 ? now + kPatience : base::Instant{});
     retry_at_ = now + kRetry;

@@ -17,7 +17,7 @@ constexpr ModelName kModels[] = {
     {Model::mac141, "MAC141"}, {Model::mac800, "MAC800"},
 };
 
-/// Up to this number a register has the same meaning on every motor, under whatever name.
+/// Up to this number a register has the same meaning on every motor, whatever its name.
 constexpr std::uint8_t kLastCommon = 88;
 
 const Register* find_in(std::span<const Register> map, std::string_view name) {

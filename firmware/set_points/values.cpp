@@ -19,7 +19,7 @@ std::string plain_text(double number, int digits) {
     return text;
 }
 
-/// The fewest digits that come back as the same number of steps.
+/// The fewest digits that are read back as the same number of steps.
 std::string shortest_text(const SetPoint& point, std::int32_t value) {
     const double exact = value / point.steps_per_unit;
     for (int digits = 1; digits < 17; ++digits) {

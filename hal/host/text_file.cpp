@@ -62,7 +62,7 @@ std::string make_text(std::string& bytes) {
 }
 
 bool TextPieces::add(std::string_view block) {
-    constexpr std::size_t kLookedAt = 4;  // enough to tell whether it is text
+    constexpr std::size_t kLookedAt = 4;  // enough to decide whether it is text
     held_ += block;
     if (!has_begun_ && held_.size() < kLookedAt) return true;
     if (!has_begun_) begin();

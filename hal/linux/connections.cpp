@@ -171,7 +171,8 @@ class TerminalConnections final : public Connections {
     }
     Peer peer(Id) const override { return {}; }
     std::vector<Id> with_news() override { return is_there_ ? std::vector{last_} : std::vector<Id>{}; }
-    /// One that closed it while it was read has left; what it still sent is read the next time.
+    /// A client that closed the terminal during the read has left; the rest of its data is read the next
+    /// time.
     Got read(Id client, std::span<std::uint8_t> out) override {
         if (!is_there_ || client != last_) return {0, State::gone};
         const bool was_open = terminal_->has_client();

@@ -54,7 +54,7 @@ ChipRequested request_lines(const ChipWanted& wanted);
 struct LineInfo {
     std::string name;
     bool used;
-    std::string consumer;  ///< who uses it
+    std::string consumer;  ///< consumer of the line
 };
 /// The lines of a chip. Empty if it cannot be opened, with errno in `error`.
 std::vector<LineInfo> lines_of(const std::string& path, int& error);

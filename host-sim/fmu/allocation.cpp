@@ -6,7 +6,7 @@
 #include "arena.h"
 
 namespace __gnu_cxx {
-void __freeres();  // libstdc++'s function to free its reserve, meant for tools such as valgrind
+void __freeres();  // libstdc++'s function that frees its reserve, provided for tools such as valgrind
 }
 
 namespace {

@@ -148,7 +148,7 @@ class List {
         output(Id::timer, "timer", Kind::integer, "", "The sequence's timer, ms");
         output(Id::counter, "counter", Kind::integer, "", "The sequence's counter");
         output(Id::running, "running", Kind::truth, "", "The sequence runs");
-        output(Id::link_up, "link_up", Kind::truth, "", "The gateway hears the motor");
+        output(Id::link_up, "link_up", Kind::truth, "", "The link to the motor is up");
     }
 
     static std::string named(const std::string& name, const std::string& terminal) {

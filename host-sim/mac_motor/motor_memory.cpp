@@ -71,7 +71,7 @@ std::int32_t fixed(double value, double one) {
 // (3 - 2/z)^3: its zeros are the slow poles of the loop, so a move goes through the quick ones only. Sum 1: a
 // move ends where the profile does.
 constexpr double kForward[] = {27, -54, 36, -8};
-// Of the lag, its rise and its sum. Sum 1, as kForward's.
+// For the lag, its first difference and its sum. Their sum is 1, as for kForward.
 constexpr double kBackward[] = {9490 / 256.0, -16377 / 256.0, 7143 / 256.0};
 constexpr double kError = 28 / 4096.0;
 // 1 - (1 - 1/z)^2 (1 + 1091/4096/z + 67/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
@@ -90,7 +90,7 @@ void write_speed_regulator(MotorMemory& memory) {
     memory.set(cell::GEARB, fixed(16, f.one_f));
 }
 
-// Both poles of the loop at 0.4: an integrator in IF, and in IB the zero that they need.
+// Both poles of the loop at 0.4: an integrator in IF, and in IB the zero that it needs.
 void write_current_loop(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;

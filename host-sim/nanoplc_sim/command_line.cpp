@@ -272,7 +272,7 @@ void check_run(const RunOptions& run) {
     if (run.mactalk && !run.realtime)
         throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
     if (run.panel && !run.realtime)
-        throw InputError("nanoplc-sim: --panel needs --realtime: a browser lives in real time");
+        throw InputError("nanoplc-sim: --panel needs --realtime: a browser cannot follow virtual time");
     if (run.modbus && !run.realtime)
         throw InputError("nanoplc-sim: --modbus needs --realtime: outside programs live in real time");
     if (run.metrics && !run.realtime)

@@ -41,7 +41,7 @@ Program compile(const std::string& file) {
     return program;
 }
 
-/// A bit for each step that has terms, or that one leads to.
+/// A bit for each step that has terms, or is the next step of a term.
 std::uint64_t steps_in(std::span<const std::uint8_t> table) {
     std::uint64_t steps = 1;
     for (std::size_t at = 0; at + 2 * sequencer::kTermBytes <= table.size(); at += sequencer::kTermBytes) {

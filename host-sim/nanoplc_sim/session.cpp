@@ -181,8 +181,8 @@ std::string Session::doubts() const {
         const std::string_view name =
             registers::gateway::find_setting(static_cast<std::uint8_t>(pair.setting))->name;
         text += fmt::format(
-            "the gateway's stored setting {} is {} and the motor wants {}: they will not understand each "
-            "other; nanoctl settings set {}={} --keep, then nanoctl reset\n",
+            "the gateway's stored setting {} is {} and the motor's is {}: they cannot communicate; "
+            "nanoctl settings set {}={} --keep, then nanoctl reset\n",
             name, stored, pair.motor, name, pair.motor);
     }
     return text;

@@ -77,7 +77,7 @@ class LineParser {
         scenario_.every.push_back(std::move(rule));
     }
 
-    /// What lasts as long as the period is never taken back.
+    /// Refuses an action that lasts as long as the period, since it would never be reversed.
     void check_spans(const EveryRule& rule) const {
         for (std::size_t i = 1; i < rule.actions.size(); ++i) {
             const Time span = rule.actions[i].after - rule.actions[i - 1].after;
@@ -142,8 +142,7 @@ class LineParser {
 
     void expect(std::optional<Time> at = {}) {
         if (conditions_.names().motor_alone)
-            reader_.refuse_next(
-                "nobody is told here what an expectation becomes; rehearse it with nanoplc-sim");
+            reader_.refuse_next("expectations are not checked here; rehearse the scenario with nanoplc-sim");
         scenario_.expectations.push_back(ExpectationParser(reader_, conditions_).expectation(at));
         scenario_.expectations.back().line = line_;
     }
@@ -232,7 +231,8 @@ void check_expectation_times(ParsedScenario& parsed) {
     }
 }
 
-/// What would never happen. That something is not taken back before the end is no mistake.
+/// Refuses actions after the end, which would never be executed. An action that is not reversed before the
+/// end is allowed.
 void check_action_times(ParsedScenario& parsed) {
     const Scenario& scenario = parsed.scenario;
     if (!scenario.end) return;

@@ -177,7 +177,8 @@ void ScenarioRunner::perform(const Planned& planned) {
         bool by_rule;
         void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
         void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
-        /// An action with a time of its own was planned first and drops what rules have planned until then.
+        /// The cancel of a rule drops what rules have planned before it; one with a time of its own all that
+        /// rules have planned.
         void operator()(const action::Cancel& a) const { self.cancel(a, by_rule ? batch : UINT64_MAX); }
         void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
         void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }

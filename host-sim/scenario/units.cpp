@@ -17,7 +17,7 @@ constexpr double kFullTorque = 1023;
 constexpr std::array<std::string_view, 16> kKnown{"counts", "rev", "rpm", "um", "mm", "cm",  "m", "inch",
                                                   "deg",    "rad", "us",  "ms", "s",  "min", "V", "Nm"};
 
-/// Words of statements, which may stand behind a number.
+/// Words of statements, which may follow a number.
 constexpr auto kWords = std::to_array<std::string_view>(
     {"above",   "after",   "always",      "analogue", "and",   "appears", "at",     "back",     "below",
      "brake",   "by",      "cancel",      "changes",  "clean", "cut",     "damage", "delay",    "disappears",

@@ -11,8 +11,7 @@ std::vector<Unit> units_of(Value::Kind kind, const Names& names);
 std::vector<Unit> units_of(const set_points::SetPoint& point);
 /// `counts, rev or mm`
 std::string units_in_words(Value::Kind kind, const Names& names);
-/// A word behind a number that is meant as a unit, whether or not it fits or is misspelt: none of the
-/// language.
+/// A word behind a number that is intended as a unit, valid or not; false for words of the language.
 bool is_meant_as_unit(std::string_view word, const Names& names);
 /// For a unit that does not fit: ` (90 cm are 900 mm)`, ` (Speed has rpm)`, or nothing. `of`: the value.
 std::string unit_hint(double number, std::string_view unit, const std::vector<Unit>& fitting, const Value& of,

@@ -116,7 +116,7 @@ class Values(Case):
         self.told(2, "interface's name", "status")
         self.endpoint = "can:none0"
         self.told(3, "can:none0: ", "status")
-        self.told(2, "LMT names nobody", "--address", "5", "address", "set", "7")
+        self.told(2, "LMT addresses no module", "--address", "5", "address", "set", "7")
         # 003 §V.8: 0 is every module on the bus.
         for wrong in ("0", "128", "-1"):
             self.told(2, f"{wrong}: modules on CAN have the addresses 1 to 127", f"--address={wrong}", "status")

@@ -65,7 +65,7 @@ class Scenarios(Case):
     def test_what_a_scenario_cannot_be(self):
         for text, said in (("motor pulses 1 per s", "s.scn:1:7: a MAC140 has FastMAC on the pins"),
                            ("motor error\nIN0 := 1", "s.scn:2:1: here is the motor alone"),
-                           ("expect P_IST > 0", "s.scn:1:1: nobody is told here")):
+                           ("expect P_IST > 0", "s.scn:1:1: expectations are not checked here")):
             with open(self.path("s.scn"), "w", encoding="ascii") as file:
                 file.write(text)
             self.refused_by(PROGRAM, "--fastmac", "unix:" + self.path("f"), "--scenario", self.path("s.scn"), says=said)

@@ -227,7 +227,7 @@ TEST(Decompile, WhatHasNoWordsIsBytesWithTheReason) {
         const char* reason;
     };
     const Row rows[] = {
-        {{0xC1, 0x04, 0x00, 0x01, 0x80, 0, 0, 0}, "it wants inputs it does not care for"},
+        {{0xC1, 0x04, 0x00, 0x01, 0x80, 0, 0, 0}, "INPUT has levels that CARE masks"},
         {{0xC1, 0, 0, 0x81, 0x80, 0, 0, 0}, "unused bits are set"},
         {{0xC1, 0, 0, 0x01, 0x80, 0x10, 0, 0}, "unused bits are set"},
         {{0xC1, 0, 0, 0x01, 0xC1, 0, 0, 0}, "it holds a command that is not sent"},

@@ -29,7 +29,7 @@ OptionText text_of(const CLI::Option& option) {
             .has_value = option.get_items_expected_max() != 0};
 }
 
-/// Rejects an empty value; an option that is not wanted is left out. Positional arguments are not checked.
+/// Rejects an empty value; an option without a value must be omitted. Positional arguments are not checked.
 CLI::Option* never_empty(CLI::Option* option) {
     if (option->get_positional()) return option;
     return option->check(CLI::Validator(

@@ -6,7 +6,7 @@
 #   firmware/boards/linux    FAMILY_support.cpp    its keys in the configuration, its wiring
 #   host-sim/board           FAMILY_virtual.cpp    its virtual drive
 #
-# The first one is the drive of whoever names none.
+# The first family is the default.
 set(NPLC_FAMILIES jvl midi)
 
 # nplc_family_sources(OUT)           the families' files in this folder

@@ -11,8 +11,8 @@
 #                     [NPM INSIDE=FOLDER NOTICE INPUTS])
 #
 # Target TARGET makes the package by the CPack configuration FILE in DIR of the build folder, with its bill of materials
-# (tools/packing). PROGRAMS are paths in the package, each a target's; EMBEDDED tells of a library whose
-# bytes are in one, with its map beside it, and NPM what is bundled into the file INSIDE.
+# (tools/packing). PROGRAMS are paths in the package, each a target's; EMBEDDED names a library that is
+# contained in one, with its map beside it, and NPM the packages bundled into the file INSIDE.
 include_guard(GLOBAL)
 set(NPLC_PACKAGE_CONTACT "NanoPLC Gateway <nanoplc@nanoplc.invalid>" CACHE STRING "Maintainer of the Debian packages")
 

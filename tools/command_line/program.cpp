@@ -44,7 +44,7 @@ void try_to(Common& common, const std::function<void()>& what) {
         fail(common, failure.exit_code(), failure.what(), failure.details());
     } catch (const mactalk_client::Ended& error) {
         fail(common, error.exit_code(), error.what());
-    } catch (const std::system_error&) {  // of fmt::print; told below
+    } catch (const std::system_error&) {  // of fmt::print; reported below
     }
 }
 
@@ -71,7 +71,7 @@ void add_line_options(arguments::App& app, Common& common, const std::string& of
 
 void add_password_option(arguments::App& app, Common& common) {
     app.add_option("--password-file", common.password_file,
-                   "A file whose first line a gateway's port wants before it takes changes")
+                   "A file whose first line is the password that a gateway's port requires for changes")
         ->envname(variable(common, "PASSWORD_FILE"));
 }
 

@@ -20,7 +20,7 @@ class AxisWriter {
   public:
     explicit AxisWriter(std::uint8_t address) { axis_.address = address; }
 
-    /// As few segments as it takes; what rounding leaves is made up by the next one.
+    /// As few segments as possible; the next one compensates for the rounding.
     void stand(std::int64_t until) {
         for (std::int64_t enough = 0; until - now_ > enough; enough = kLongest) {
             const std::int64_t left = until - now_;
@@ -33,7 +33,7 @@ class AxisWriter {
     bool turn(std::int64_t steps, std::int64_t until) {
         const std::int64_t sign = steps < 0 ? -1 : 1;
         for (std::int64_t left = std::abs(steps); left > 0;) {
-            // As many segments as it takes, of even length.
+            // As few segments as possible, of equal length.
             const std::int64_t parts = (left + kMostSteps - 1) / kMostSteps;
             const std::int64_t now = left / parts;
             const std::int64_t period = rounded((until - now_), left);

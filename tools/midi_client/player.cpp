@@ -53,7 +53,7 @@ Plan with_probes(const Plan& plan, const Segment& probe) {
     return whole;
 }
 
-/// It would carry out the next order by itself, at once, and from wherever it stands.
+/// A module that has restarted would execute the next order at once, from its present position.
 void look_for_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
     for (const std::uint8_t address : addresses) {
         if (link.take_boot(address))
@@ -70,7 +70,7 @@ void look_for_everyone(const Link& link, const std::vector<std::uint8_t>& addres
     }
 }
 
-/// It has started, or will start, each move as soon as it is prepared.
+/// After another master's SYNC the module starts each move as soon as it is prepared.
 void look_for_foreign_sync(Link& link) {
     if (link.take_foreign_sync())
         throw NotPlayed(
@@ -191,7 +191,7 @@ class Player {
 
     void send(const Feed::Next& next) {
         wait_until(began_latest_ + time_of(next.free));
-        // From when on its FIFO has been empty for sure or not, whichever the clocks say.
+        // From this time on its FIFO may be empty, by any of the clocks.
         const base::Instant deadline = began_ + time_of(next.deadline);
         for (bool asked = false;; asked = true) {
             look();

@@ -157,7 +157,7 @@ class SentRequest {
         return result == gw::Result::seat_taken || result == gw::Result::too_late;
     }
 
-    /// nullopt: the gateway does not know it.
+    /// nullopt: the outcome is unknown to the gateway.
     std::optional<GatewayClient::LastResult> wait_for_end() {
         const base::Instant end = gateway_.master().wire().now() + kLongest;
         for (;;) {

@@ -130,7 +130,8 @@ class Stopping {
     gw::Command command_;
     base::Instant begun_;
     bool is_asked_ = false;  ///< the gateway has received it, and waits for the motor
-    /// A stop was received since it was asked. Of a gateway that had stopped before only an accept shows it.
+    /// The gateway has received a stop since this one was sent. If it was stopped before, only an accept
+    /// shows that.
     bool was_told_ = false;
     std::optional<Status> last_;
     std::optional<base::Instant> ordered_at_;  ///< first confirmation that the gateway has received it

@@ -98,7 +98,7 @@ void check_motor_is_named(const ast::Program& program, const Plan& plan, Report&
                "write MOTOR MAC140; or which one is on its line");
 }
 
-/// Advice that a step or POWER_UP allows: what stands between its first word and its end.
+/// Whether ALLOW in the step or in POWER_UP that contains the finding switches it off.
 bool is_allowed(const ast::Program& program, const Diagnostic& d) {
     const auto allows = [&](const ast::Step& step) {
         return std::any_of(

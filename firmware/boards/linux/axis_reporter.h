@@ -22,7 +22,8 @@ class AxisReporter {
 
     /// To be called with a new log.
     void start(base::Instant now);
-    /// Without a store what it holds is not damaged, but out of reach, which is told elsewhere.
+    /// False: no store. Then the stored data count as out of reach, which is reported elsewhere, not as
+    /// damaged.
     void set_store(bool is_there) { has_store_ = is_there; }
     /// `holder`: the present operator; null: none.
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,

@@ -167,8 +167,7 @@ std::optional<std::string> AxisStore::give_permission(base::Instant now) {
     return outcome;
 }
 
-/// A crash is kept in the mark too until somebody commands run: another store may be put in the place of this
-/// one.
+/// The marker keeps a crash until run is commanded, since the store may be replaced by another one.
 std::string AxisStore::mark_ended() {
     if (!storage_) return {};
     return is_after_crash_ ? marker_->note_crash() : marker_->clear();

@@ -42,8 +42,8 @@ class AxisStore {
     /// Marks a run as begun and stores the permission. Leaves the record in a store of another axis
     /// unchanged. Empty, or a one-line error.
     std::string mark_running();
-    /// Somebody has commanded run: what says so is written beside everything else, for a second at the most.
-    /// To be called until it is answered: empty, and the permission is given; or why it is not, one line.
+    /// Run was commanded: begins to write the permission in the background, for 1 s at the most. To be called
+    /// until it returns a value: empty if the permission is stored, else the reason, one line.
     std::optional<std::string> give_permission(base::Instant now);
     /// An orderly end. One before which a crash has not been answered by run keeps the crash.
     std::string mark_ended();
@@ -65,7 +65,7 @@ class AxisStore {
     std::optional<StoreOwner> owner_;
     AutostartPermission permission_ = AutostartPermission::first_run;
     bool is_marked_ = true;
-    bool is_after_crash_ = false;         ///< and nobody has commanded run since
+    bool is_after_crash_ = false;         ///< and run was not commanded since
     std::optional<base::Instant> asked_;  ///< when the permission was
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;
@@ -75,8 +75,9 @@ class AxisStore {
 /// Whether a service has the store in this folder open.
 bool is_in_use(const std::string& folder);
 
-/// After the end of the service: an axis in this folder that was running in this boot has crashed, which the
-/// next start knows even after a power cut. Changes nothing while is_in_use(). Empty, or a one-line error.
+/// After the end of the service: records that an axis in this folder which was running in this boot has
+/// crashed, so that the next start finds this even after a power cut. Changes nothing while is_in_use().
+/// Empty, or a one-line error.
 std::string note_crash(const std::string& folder);
 
 }  // namespace nplc::boards

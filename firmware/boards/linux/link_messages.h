@@ -8,9 +8,9 @@
 
 namespace nplc::boards {
 
-/// Limits what the journal says of a link that is lost and back again and again. The first kWhole losses of a
-/// minute, and what follows from them, are written whole; then, until a minute has no more than those, a
-/// count a minute is.
+/// Limits the journal's messages about a link that is lost repeatedly. The first kWhole losses of a minute
+/// and their consequences are written in full; then only a count for each minute, until a minute has no more
+/// than kWhole losses.
 class LinkMessages {
   public:
     static constexpr unsigned kWhole = 3;

@@ -17,7 +17,8 @@ LogMessage of_missing(SafeReason reason) {
     if (reason == SafeReason::no_store)
         return {LogLevel::error,
                 "SAFE: the store cannot be had, as said above; it does not run without its settings"};
-    return {LogLevel::error, "SAFE: the user's port is missing; it does not run where nobody can stop it"};
+    return {LogLevel::error,
+            "SAFE: the user's port is missing; it does not run, since no client could stop it"};
 }
 
 LogMessage of_reason(SafeReason reason, unsigned step) {

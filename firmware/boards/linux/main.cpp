@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     modbus_map.add_option("file", options.file, "The configuration, for its first axis's unit and motor");
     modbus_map.add_flag("--markdown", options.markdown,
                         "A table for documents, without the motor's registers");
-    app.add_subcommand("wiring", "Print what is to be joined to what")
+    app.add_subcommand("wiring", "Print the wiring, a row for each terminal")
         ->add_option("file", options.file, "The configuration")
         ->required();
     app.add_subcommand("note-end", "After the end of the service: write down which axes have crashed")

@@ -125,7 +125,7 @@ void Deployment::end_of_run(const faces::Completion& ended) {
     stage_ = after_run_;
 }
 
-/// After this stop the sequence is not restarted automatically: a person may be at the machine by then.
+/// After this stop the sequence is not restarted automatically, since a person may be at the machine.
 void Deployment::forget_run(const std::string& why) {
     if (std::exchange(ran_, std::nullopt))
         note(true, fmt::format("the sequence, which was stopped for an order, is not run again: {}", why));

@@ -106,7 +106,7 @@ std::optional<Completion> CommandDesk::Client::take() {
     return completion;
 }
 
-/// Of more than can be kept the loop alone tells how the oldest ended.
+/// If there are too many, the oldest is dropped: its outcome is then reported by the loop only.
 void CommandDesk::open_stop(Place& place, std::uint32_t id) {
     bool is_open = false;
     sift(place.open_stops, [&](const OpenStop& stop) {

@@ -28,7 +28,7 @@ const registers::Register* register_of(MotorItem item, registers::Model model) {
     return registers::find(model, kRegisters[static_cast<std::size_t>(item)]);
 }
 
-/// A reader that sees any word of an image also sees that the write has begun.
+/// A reader that reads any word of an image also reads that the write has begun.
 void ImageBoard::put(const AxisImage& image) {
     std::array<std::uint64_t, kWords> words{};
     static_assert(std::is_trivially_copyable_v<AxisImage>);

@@ -22,7 +22,7 @@ using Turn = std::optional<MotorItem>;
 constexpr Turn kOther{};  ///< the next one of the others
 constexpr std::array<Turn, 8> kUsual{kPosition, kVelocity, kPosition, kTorque,
                                      kPosition, kVelocity, kPosition, kOther};
-/// For who looks at a trend: no more reads, and the torque as often as the position.
+/// For a displayed trend: the same number of reads, with the torque as often as the position.
 constexpr std::array<Turn, 7> kTrend{kPosition, kVelocity, kTorque, kPosition, kVelocity, kTorque, kOther};
 
 /// The motor's one access is the port's or an activation's.

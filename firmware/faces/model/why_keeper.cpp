@@ -20,7 +20,7 @@ std::optional<std::int32_t> velocity_of(const AxisImage& image) {
     return read.value;
 }
 
-/// True if the text may go on telling the one told before.
+/// True if the value is near enough to the one in the present text that the text need not change.
 bool is_near(std::int32_t value, std::int32_t told) {
     constexpr std::int64_t kPart = 8;
     return std::abs(std::int64_t{value} - told) * kPart <= std::abs(std::int64_t{told});
@@ -42,7 +42,7 @@ Findings judge(const AxisImage& image, const causes::GatewayState& gateway, cons
         .model = survey->model, .before = survey->before, .now = survey->now, .gateway = gateway};
     Findings all = causes::why(condition);
     const std::string_view first = all.front().code;
-    // The next survey, which begins soon, tells why it stands.
+    // The reason for the standstill follows with the next survey, which begins soon.
     if ((first == "moves" || first == "runaway") && stands(image, *survey)) return causes::why(gateway);
     if (!image.moves || first == "runaway") return all;
     if (first != "moves") return {causes::moving(survey->model, velocity)};

@@ -56,7 +56,7 @@ std::string_view name_of(faces::MotorItem item, const AxisImage& image) {
     return reg == nullptr ? std::string_view() : reg->name;
 }
 
-/// Newly read values, and once more those that have become old since `before` was told.
+/// Newly read values, and once more those that have become stale since `before`.
 Json motor_values(const AxisImage& image, const AxisImage* before, base::Instant now) {
     Json values = Json::object();
     for (std::size_t i = 0; i < faces::kMotorItems; ++i) {

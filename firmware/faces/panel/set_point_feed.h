@@ -26,7 +26,7 @@ class SetPointFeed {
     std::size_t room() const { return room_; }
     /// "Length 80 mm to 100 mm, Pieces 3 to 5": the changes at this uptime; empty if unknown.
     std::string changes_at(std::uint32_t milliseconds) const;
-    /// What the present table did not take of the values and recipes before it; told once.
+    /// The former values and recipes that the present table did not accept; returned once.
     std::vector<set_points::Dropped> take_dropped() { return std::exchange(dropped_, {}); }
     /// Name of a recipe that the event log identifies by number.
     std::string recipe_name(unsigned number) const;

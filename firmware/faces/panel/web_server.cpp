@@ -39,7 +39,7 @@ using Response = http::response<http::string_body>;
 
 class Server;
 
-/// One WebSocket. It lives as long as one of its operations is in progress.
+/// One WebSocket. It exists as long as one of its operations is in progress.
 class Socket : public std::enable_shared_from_this<Socket> {
   public:
     Socket(Server& server, ClientId id, beast::tcp_stream stream, std::string peer)

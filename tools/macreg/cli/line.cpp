@@ -189,7 +189,7 @@ bool is_midi(const MonitorArguments& options) {
     return options.protocol == "midi";
 }
 
-/// As `midi` has it: --baud if said, else the factory's.
+/// As for `midi`: --baud if given, else the factory setting.
 Common line_of_midi(Common common) {
     common.baud = common.baud_or(registers::midi::kFactoryBaud);
     return common;
@@ -319,7 +319,7 @@ void add_monitor(arguments::App& app, Common& common) {
                        "Whose bytes come: master or motor; both of a MacTalk or MIDI line, and the master of "
                        "a FastMAC line, if not said");
     command.add_option("--motor-port", options.motor_port,
-                       "A second port that hears the motor; --port then hears the master");
+                       "A second port for what the motor sends; --port then has what the master sends");
     command.add_option("--replay", options.replay, "Bytes in hex from a file instead; - is standard input");
     command
         .add_option("--gateway", options.gateway,

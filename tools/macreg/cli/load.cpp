@@ -51,7 +51,7 @@ void look_at_model(Session& session, const ParameterSet& set, const LoadArgument
                         options.file, type->second, own));
 }
 
-/// What is to be written: what differs, without the address. Dangerous ones as the options say.
+/// The differing parameters, without the address; dangerous ones if the options allow them.
 std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, const ParameterSet& own,
                                  const LoadArguments& options) {
     std::vector<Difference> some;

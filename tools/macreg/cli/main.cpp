@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
         "macreg");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("macreg ") + NPLC_VERSION);
-    app.footer(footer_of_motors());  // a command takes its own from here when it is added
+    app.footer(footer_of_motors());  // a command copies it from here when it is added
     Common common;
     common.program = "macreg";
     common.date =

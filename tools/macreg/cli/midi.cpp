@@ -170,7 +170,7 @@ void add_midi(arguments::App& app, Common& common) {
     command
         .add_option("--baud", midi->baud, "Speed of the serial line, 38400 if not said: 9600, 19200, 38400")
         ->in_range(1U, 921'600U);
-    // Its commands live as long as the command line, and so does what they refer to.
+    // The callback keeps the options alive as long as the command line.
     command.callback([midi] {});
     add_midi_status(command, *midi);
     add_midi_values(command, *midi);

@@ -132,7 +132,7 @@ void jog(const MidiCommon& midi, const JogOptions& options) {
         number_of(midi::typed_time(options.time.empty() ? "0" : options.time), "--for ")};
     const bool keys = host::is_terminal(stdin) && !midi.common.json;
     if (!keys && time.count() == 0)
-        throw UserError("jog: nobody is at the terminal to end it; say --for, as --for 2s");
+        throw UserError("jog: without a terminal no key can end it; say --for, as --for 2s");
     MidiSession session(midi);
     session.master().expect_alone(session.address());
     const Scale scale = session.module().known_scale();

@@ -86,7 +86,7 @@ void set_address(const MidiCommon& midi, const int& address) {
     look_at_address(midi, "address", address);
     const bool said = midi.address != MidiCommon::kNotSaid || midi.common.address != 0;
     if (is_can(midi) && said)
-        throw UserError("--address: LMT names nobody (003 §V.5); leave one module on the bus, and this out");
+        throw UserError("--address: LMT addresses no module (003 §V.5); leave one on the bus, and omit this");
     MidiSession session(midi);
     const auto wanted = static_cast<std::uint8_t>(address);
     session.can() != nullptr ? program_can(session, wanted) : program_line(session, wanted, said);

@@ -21,7 +21,7 @@ std::string names(const std::vector<std::string>& all) {
     return fmt::format("{}", fmt::join(all, ", "));
 }
 
-/// What the motor will do after the reset: the user should know before confirming.
+/// What the motor will do after the reset, shown before the user confirms.
 std::string what_a_start_does(Session& session) {
     Motor& motor = session.motor();
     const Model model = motor.model();

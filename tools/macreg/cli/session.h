@@ -47,16 +47,16 @@ std::vector<const registers::Register*> find_registers(registers::Model model,
 
 /// A note for the user: on standard error, not with --json.
 void remark(const Common& common, const std::string& text);
-/// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
-/// a sentence that says what will happen.
+/// Asks on the terminal and requires a typed "yes"; without a terminal or --yes it throws UserError. `what`
+/// is a sentence that says what will happen.
 void ask(const Common& common, const std::string& what);
 
 /// A motor that answered, and how results are printed.
 class Session {
   public:
     explicit Session(const Common& common);
-    /// Sends a stop, this value of MODE_REG, before it asks anything, and again if nobody answers; the
-    /// Failure then says that it is not confirmed.
+    /// Sends a stop, this value of MODE_REG, before any request, and again if there is no answer; the Failure
+    /// then says that it is not confirmed.
     Session(const Common& common, std::int64_t stop);
 
     Motor& motor() { return *motor_; }

@@ -21,7 +21,7 @@ host::ByteClient::Opened reopen(const Common& common) {
 }
 
 void ui(Common& common) {
-    if (common.json) throw UserError("ui is for people and knows no --json; see get, set and watch");
+    if (common.json) throw UserError("ui has no --json; see get, set and watch");
     UiOptions options;
     {
         // Finds the motors; the screen then opens the port itself

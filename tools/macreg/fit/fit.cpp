@@ -15,8 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of 95 %, and a third for what the model of the noise does not know: steps of the encoder, rest beside
-// motion.
+// The quantile of 95 %, enlarged by a third for errors that the noise model does not include: steps of the
+// encoder, rest beside motion.
 constexpr double kQuantile = 2.6;
 constexpr double kMoving = 0.05;  // of the fastest
 

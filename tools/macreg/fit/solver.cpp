@@ -79,7 +79,7 @@ VectorXd guess_at(const Problem& problem, double dead_time) {
         double sum = 0, twice = 0, signs = 0, signs_twice = 0, way = 0, ones = 0, ones_twice = 0;
         for (std::size_t i = 0; i < series.size(); ++i, ++row) {
             if (i > 0 && series.at_rest[i] == 0) {
-                // A torque moves the shaft in its own sample by half of what it does in later ones
+                // In its own sample a torque moves the shaft by half as much as in later ones.
                 const double velocity = series.velocity(i);
                 const double sign = velocity > 0.5 ? 1 : velocity < -0.5 ? -1 : 0;
                 twice += sum + torque[i] / 2;

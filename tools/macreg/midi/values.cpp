@@ -385,7 +385,7 @@ std::string value_text(const Parameter& parameter, std::int64_t raw, const Scale
             return ramp_text(raw, scale);
         case Sort::torque:
             if (scale.imax == 0) return fmt::format("{}", raw);
-            // Rounded up: what is typed is rounded down, and so comes back the same.
+            // Rounded up: input is rounded down, so the shown value is read back as the same.
             return short_number(static_cast<double>((raw * 10'000 + scale.imax - 1) / scale.imax) / 100) +
                    " %";
         case Sort::choice:

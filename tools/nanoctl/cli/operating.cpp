@@ -60,7 +60,7 @@ void add_operating(arguments::App& app, Common& common) {
         "Who operates: one client at a time, and all of a user's on a socket. With --take you do, as long "
         "as this runs",
         operate);
-    command.add_flag("--take", options.take, "Operate, and take it over from whoever does; both are told");
+    command.add_flag("--take", options.take, "Operate, and replace the present operator, who is informed");
     command.add_flag("--release", options.release, "Give it back, for all your clients")->excludes("--take");
 }
 

@@ -63,7 +63,7 @@ class Errors {
             is_fault_step_[next] = true;
     }
 
-    /// A property of a step also applies to its copies, whichever of them ERROR leads to.
+    /// A property of a step also applies to its copies, since ERROR may lead to any of them.
     void spread_to_copies() {
         const auto copy_of = [&](std::uint8_t step) { return names_.copy_of[step].value_or(step); };
         std::array<bool, 64> whole{};

@@ -97,7 +97,7 @@ class Rounds {
         }
     }
 
-    /// Where each corner has one that follows, leaves those of rounds that are to be told.
+    /// If each corner has only one successor, keeps only the corners of rounds that are to be reported.
     void leave_what_matters() {
         for (std::size_t i = lively_._Find_first(); i < kCorners; i = lively_._Find_next(i)) {
             if (next_[i] != other_[i]) return;

@@ -71,7 +71,8 @@ std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensi
     return findings;
 }
 
-/// Steps that a timer at zero leads to where a running one does not; kNoSwitch: it stays, and does something.
+/// Steps that a timer at 0 leads to where a running one does not; kNoSwitch: the step stays active, with an
+/// effect.
 std::uint64_t led_to(const Machine& machine, const Sensitivity& sensitivity, std::uint8_t step) {
     std::uint64_t steps = 0;
     for (const bool counter_zero : {false, true}) {
@@ -138,8 +139,8 @@ class OtherPurpose {
              scan.course(scan.images())});
     }
 
-    /// Of all users that come to a node the first two with other purposes are enough: whatever a step leads
-    /// to, one of them wanted something else.
+    /// At each node the first two users with different purposes are enough: for any step that follows, one of
+    /// them had another purpose.
     bool is_new(Explorer::Node node, Walk::Memory user) {
         if (user == kUnused || excluded_ != nullptr) return true;
         auto& [one, two] = users_[node];

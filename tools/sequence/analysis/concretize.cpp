@@ -62,8 +62,8 @@ std::vector<Costs> costs_of(std::span<const CourseScan> scans, const ChangeCosts
     return costs;
 }
 
-/// Of all images that a course can have, those with the least cost of changes; ERROR costs a little, so that
-/// none is there without need.
+/// The possible images with the least cost of changes. ERROR has a small cost, so that it appears only where
+/// it is needed.
 Images calm_images(std::span<const CourseScan> scans, const ChangeCosts& changes) {
     const std::vector<Costs> costs = costs_of(scans, changes);
     Images images(scans.size());
@@ -161,7 +161,7 @@ void bound_delays(Times& times, std::span<const CourseScan> scans) {
     }
 }
 
-/// Repeated scans see the timer end too: they are `most_idle` apart.
+/// Repeated scans also read the end of the timer: they are `most_idle` apart.
 void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced,
                  std::span<const ChosenPreset> presets) {
     std::size_t preset_at = 0;
@@ -185,8 +185,8 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced,
     }
 }
 
-/// A scan that sees a move to a place neither ended nor disturbed is no later than it takes. Repeated ones
-/// are none either.
+/// A scan that reads a move to a position as neither ended nor disturbed is within the duration of the move,
+/// and so are its repetitions.
 void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t move_ms, bool paced) {
     std::size_t ordered = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
@@ -200,8 +200,8 @@ void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t 
     }
 }
 
-/// An input that a scan sees changed did so after the scan before, repeated ones too, and not before it was
-/// steady.
+/// An input that a scan reads as changed has changed after the scan before and its repetitions, and not
+/// before it was steady.
 void bound_inputs(Times& times, std::span<const CourseScan> scans, const Images& images, bool paced,
                   const std::array<std::uint32_t, 6>& stable_ms) {
     for (unsigned input = 0; input < stable_ms.size(); ++input) {

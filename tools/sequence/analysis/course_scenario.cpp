@@ -11,7 +11,7 @@
 namespace nplc::verify {
 namespace {
 
-/// Milliseconds until a scan sees an input, and one more that does.
+/// Milliseconds until a scan reads a changed input; kSeen includes one more scan.
 constexpr std::uint64_t kDebounce = 3;
 constexpr std::uint64_t kSeen = kDebounce + 2;
 /// For moves that end at once in a course.
@@ -61,7 +61,7 @@ class Anchors {
     bool was_in_pos_ = false;
 };
 
-/// Actions that lead from one image to the next; what INPOS does is the motor's.
+/// Actions that lead from one image to the next; INPOS is set by the motor.
 std::vector<std::string> actions_between(std::uint8_t before, std::uint8_t image, const Names& names) {
     std::vector<std::string> actions;
     for (unsigned i = 0; i < 6; ++i) {
@@ -114,7 +114,7 @@ class Writer {
         is_first_ = false;
     }
 
-    /// Early enough to be seen by this scan, if the one before it does not see it then.
+    /// Early enough for this scan to read the change, if then the scan before does not read it yet.
     void place(const std::string& actions) {
         if (is_first_) {
             text_ += actions + "\n";

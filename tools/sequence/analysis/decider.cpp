@@ -33,7 +33,7 @@ std::string out_of_bounds(const Explorer& explorer) {
         "of "
         "counts that ends sooner (each count is a state of its own), ASSUME "
         "NEVER ERROR, ASSUME NEVER of inputs that cannot be together, a shorter time, or --assume "
-        "any, which knows no times",
+        "any, which has no times",
         explorer.size(), explorer.complete() ? " scans between them than are kept" : "");
 }
 

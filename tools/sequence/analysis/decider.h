@@ -67,7 +67,7 @@ class Decider {
     const Explorer& fine();
     const Explorer& punctual();
     bool assumes_stable_inputs() const;
-    /// Why ALWAYS POSSIBLE is open, with the assumption that makes it so.
+    /// Why ALWAYS POSSIBLE is undecided, with the assumption that leads to it.
     std::string why_not_surely(const Target& target, const Explorer::Scans* only = nullptr) const;
     bool has_ranges() const { return !machine_.ranges().timer.empty() || machine_.has_counter_ranges(); }
 
@@ -77,7 +77,7 @@ class Decider {
     std::vector<Target> targets_;
     std::unique_ptr<Explorer> coarse_;
     std::unique_ptr<Explorer> fine_;
-    std::unique_ptr<Explorer> punctual_;  ///< as coarse, and no scan waits for a line that comes back
+    std::unique_ptr<Explorer> punctual_;  ///< as coarse_, but no scan waits for the line to be restored
     std::array<std::uint32_t, 6> stable_ms_{};
     std::uint8_t held_ = 0;  ///< inputs that are assumed to keep their levels longer than each does anyway
 };

@@ -20,7 +20,7 @@ using smt2::Field;
 using smt2::Fields;
 using smt2::formula_clause;
 
-/// What the orders of a scan make of each motion.
+/// The motion after a scan's orders, for each motion before it.
 Motions motions_after(const table::Outcome& outcome) {
     Motions motions;
     for (std::size_t before = 0; before < kMotions; ++before)
@@ -127,7 +127,7 @@ class Clauses {
         struct Choice {
             const char* word;     ///< of the scan's fact
             const char* needs;    ///< what else must hold
-            const char* becomes;  ///< where a state after the scan has it
+            const char* becomes;  ///< the place of the value in the state after the scan
         };
         static constexpr Choice kOutputs[] = {{"#b0 p", "", "o"}, {"#b1 p", "", "p"}};
         static constexpr Choice kCounter[] = {
@@ -180,7 +180,7 @@ class Clauses {
     /// The motion at a scan's beginning is one whose time may be known.
     static std::string timed() { return "(or (= m #b0001) (= m #b1000))"; }
 
-    /// An ERROR is told only where moves are timed.
+    /// ERROR is part of the facts only where moves are timed.
     std::string turns() const {
         std::string text;
         if (!fields_.tells_motion) return text;
@@ -227,7 +227,7 @@ class Clauses {
                text;
     }
 
-    /// And the orders to the motion that they name.
+    /// The facts of all scans; also collects the orders that they name.
     std::string facts() {
         const std::vector<Case> cases = cases_of_steps();
         for (const Case& one : cases) {
@@ -284,7 +284,7 @@ class Clauses {
     Question question_;
     std::vector<table::Step> steps_;  ///< those that have terms or can be entered
     Fields fields_;
-    unsigned told_;                ///< bits of HW_INP that a scan's facts tell apart
+    unsigned told_;                ///< bits of HW_INP by which a scan's facts are distinguished
     std::vector<Motions> orders_;  ///< what the orders of a scan do to the motion, each once
     std::string facts_;
 };

@@ -27,7 +27,7 @@ struct Fields {
     Field outputs{"o", "p", 4};
     Field timer{"r", "q", 1};  ///< 1 for running, or the remaining time
     Field counter{"c", "d", 1};
-    Field motion{"m", "n", 4};  ///< only if it is told
+    Field motion{"m", "n", 4};  ///< only if it is part of the facts
     Field moved{"v", "w", 1};   ///< only if moves are timed
     bool tells_motion = false;
     bool times_moves = false;

@@ -12,7 +12,7 @@ using Motor = Place::Motor;
 /// By this time a failed line is reported as lost, whatever was pending.
 constexpr std::int32_t kUntilLost = 300;
 
-/// With times: comparisons of zones; to look one up costs as much as kLookUp of them.
+/// For explorations with times: comparisons of zones; a look-up costs as much as kLookUp of them.
 constexpr std::uint64_t kMostWork = 25'000'000;
 constexpr std::uint64_t kLookUp = 10;
 constexpr std::size_t kMostEdges = 6'000'000;

@@ -33,7 +33,7 @@ struct Place {
     Motion motion = Motion::none;  ///< if the machine models motion
     std::uint16_t counter = 0;
 
-    /// Of all but the counter; below 1 << kPlainBits if no deadline runs and no motion is told.
+    /// Without the counter; below 1 << kPlainBits if there is no deadline and no motion is tracked.
     std::uint32_t packed_plain() const {
         return step | (unsigned{outputs} << 6U) | (runs ? 1U << 10U : 0U) |
                (static_cast<unsigned>(motor) << 11U) | (pending ? 1U << 13U : 0U) |
@@ -83,13 +83,13 @@ struct Precision {
     bool times_timer = false;      ///< else it may end at any time
     bool knows_lost_link = false;  ///< else a lost link is any ERROR
     bool keeps_edges = false;      ///< for ways back and courses
-    /// While a scan sees ERROR, a lost link may be restored; the gateway then stops the motor before it
-    /// scans. False leaves courses out, and so proves nothing.
+    /// While a scan reads ERROR a lost link may be restored; the gateway then stops the motor before it
+    /// scans. False excludes courses, so that no proof is possible.
     bool waits_for_line = true;
     const Property* deadline = nullptr;  ///< a WHENEVER or a NEVER .. WHILE to be broken
     std::size_t most_states = 2'000'000;
-    /// Only where the first target can be, soonest first: an exploration without times, and how many scans
-    /// lead from each of its nodes to the end of such a scan.
+    /// Limits the exploration to nodes from which the first target can be reached, nearest first: an
+    /// exploration without times, and for each of its nodes the number of scans to the end of such a scan.
     const Explorer* guide = nullptr;
     const std::vector<std::uint32_t>* distances = nullptr;
 };
@@ -175,7 +175,7 @@ class Explorer {
         ImageSet images;
         std::uint16_t counter = 0;  ///< after it
     };
-    /// Scans as where they begin and their group, whatever the times.
+    /// Scans by place and group, without their times.
     using Scans = std::unordered_set<std::uint64_t>;
     static std::uint64_t scan_key(const Place& place, std::uint32_t group) {
         return place.packed() << 30U | group;
@@ -207,7 +207,7 @@ class Explorer {
         bool pending = false;
     };
 
-    /// Images of a view that a target wants.
+    /// Images of a view that belong to a target.
     struct Wanted {
         std::size_t target = 0;
         ImageSet images;
@@ -284,13 +284,12 @@ class Explorer {
     std::vector<std::uint32_t> first_edge_;  ///< by node, and the end
     std::vector<std::uint32_t> first_back_;  ///< by node, and the end; once they are asked for
     std::vector<Node> back_;                 ///< from where an edge leads to it
-    /// With a deadline, and nothing left of the timer: what can have passed at a place, in parts that do not
-    /// touch.
+    /// With a deadline and a stopped timer: the times that can have passed at a place, as disjoint ranges.
     std::unordered_map<std::uint64_t, std::vector<Bounds>> covered_;
     mutable std::uint64_t work_ = 0;       ///< with zones
     std::vector<std::vector<Node>> open_;  ///< guided: by the length of the shortest course through them
     bool has_all_edges_ = true;
-    /// By group, and what the motor is: what it can be then, a bit each.
+    /// By group and state of the motor: the possible next states of the motor, as bits.
     std::vector<std::array<std::uint8_t, 4>> next_motors_;
     std::vector<Node> first_uses_;  ///< by group
     std::vector<Hit> hits_;

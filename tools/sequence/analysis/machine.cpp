@@ -24,7 +24,7 @@ std::uint64_t without_orders(const Outcome& outcome) {
     return std::uint64_t{outcome.timer} << 48U | std::uint64_t{outcome.counter_preset} << 32U | small;
 }
 
-/// For each outcome the first that does the same, whatever it sends.
+/// For each outcome the first one with the same effect, orders apart.
 std::vector<std::size_t> alike(const std::vector<Outcome>& outcomes) {
     std::unordered_map<std::uint64_t, std::size_t> known;
     std::vector<std::size_t> result;
@@ -81,7 +81,7 @@ void Machine::fill_row(const table::Step& step, const std::vector<std::size_t>& 
     }
 }
 
-/// `told`: ERROR and INPOS of its images, as far as they are told apart.
+/// `told`: ERROR and INPOS of its images, as far as they are distinguished.
 void Machine::add_group(const Outcome& outcome, unsigned told, const OrderTime& order_time) {
     const bool driver = assume_ == Assume::driver;
     const bool error = (told & sequencer::kError) != 0;

@@ -72,7 +72,7 @@ Step step_of(Form form, const ImageSet& begun, const Conditions::Images& ended, 
     }
 }
 
-/// Images with which what a form asks of a scan's beginning holds.
+/// The images at a scan's beginning for which the condition of the form holds.
 ImageSet begun_in(Form form, Conditions& conditions, const View& before) {
     if (form == Form::scan_ends) return conditions.in(before).first;
     return form == Form::only_from ? conditions.in(before).then : ImageSet{};

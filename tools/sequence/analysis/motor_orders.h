@@ -9,9 +9,10 @@
 /// What a motor is doing by what it was ordered.
 namespace nplc::verify {
 
-/// What the motor was ordered to do, as far as it decides whether it may move: `moving` in properties. In
-/// velocity, gear and position modes V_SOLL = 0 ends a motion, which goes on when V_SOLL is something again;
-/// a homing and the torque modes do not heed it (001 §4.4). In position mode a new target is a move.
+/// The state of the motor by its orders, as far as it decides whether the motor may move: `moving` in
+/// properties. In velocity, gear and position modes V_SOLL = 0 ends a motion, which continues when V_SOLL is
+/// not 0 any more; homing and the torque modes are independent of V_SOLL (001 §4.4). In position mode a new
+/// target is a move.
 enum class Motion : std::uint8_t {
     none,  ///< INIT
     to_place,
@@ -54,13 +55,13 @@ Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::
 bool begins_motion(const sequencer::MotorOrder& order);
 bool ends_motion(const sequencer::MotorOrder& order);
 
-/// They begin a move to a place or a homing, and nothing after it ends it.
+/// They begin a move to a position or a homing that no later order among them ends.
 bool begins_move(std::span<const sequencer::MotorOrder> orders);
 
 /// Registers that are 0 whenever they are used, or may be: V1..V8 and V_SOLL count.
 using ZeroRegisters = std::bitset<128>;
 
-/// As far as it decides whether INPOS can come.
+/// The motor's state, as far as it decides whether INPOS can come.
 struct MotorState {
     enum class Mode : std::uint8_t { unknown, init, velocity, position, silent };
     enum class Speed : std::uint8_t {

@@ -19,7 +19,7 @@ bool add(std::vector<ChosenPreset>& all, const ChosenPreset& one) {
     return true;
 }
 
-/// The counts at which ranges were told apart; nothing if those of one range differ.
+/// The counts at which ranges were divided; nothing if those of one range differ.
 std::optional<std::vector<ChosenPreset>> counts_in(const Machine& machine,
                                                    std::span<const CourseScan> scans) {
     std::vector<ChosenPreset> counts;

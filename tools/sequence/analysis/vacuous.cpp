@@ -28,7 +28,7 @@ std::string part_of(const std::string& text, std::string_view begin,
     return text.substr(from, to - from);
 }
 
-/// Part `number` of `count` that AND joins in a NEVER, as written if it stands there without parentheses.
+/// Operand `number` of `count` of the AND in a NEVER, as written if it has no parentheses.
 std::string part_in_words(const std::string& text, std::size_t number, std::size_t count) {
     std::string rest = part_of(text, "NEVER ", {});
     std::vector<std::string> parts;

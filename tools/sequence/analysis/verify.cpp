@@ -120,7 +120,7 @@ struct Found {
     Finding finding;
 };
 
-/// Courses that show a finding, its own first.
+/// Courses that show a finding, beginning with the finding's own.
 Decider::Ask courses_of(const Found& found, const Explorer& explorer, const Names& names,
                         const Options& options) {
     return [&, is_first = true](Excluded& excluded) mutable -> std::optional<Way> {

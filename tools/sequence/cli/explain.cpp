@@ -100,7 +100,7 @@ std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all)
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
-/// "; did you mean WITHIN?", or where a word of scenarios stands.
+/// "; did you mean WITHIN?", or a reference for a word of scenarios.
 std::string nearest_word(std::string_view wanted) {
     constexpr std::array<std::string_view, 21> kOfScenarios{
         "at",    "every",   "when",   "once",  "follows", "appears", "disappears",

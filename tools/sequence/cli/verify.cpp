@@ -204,8 +204,8 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
     return text;
 }
 
-/// Findings of one check in a step and in the copies that the compiler made of it are one: that of the step.
-/// Null: this one is told with another.
+/// Findings of one check in a step and in its copies are reported as one, that of the step. Null: this
+/// finding is part of another.
 const verify::Result* told_for(const verify::Report& report, const verify::Result& result,
                                const verify::Names& names, std::string& copies) {
     if (!result.step) return &result;

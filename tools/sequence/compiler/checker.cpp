@@ -428,7 +428,7 @@ class Checker {
         return place;
     }
 
-    /// Known in the last of the states that is judged. Keeps of the branch what warn_never() tells.
+    /// Final after the last of the states. Stores for the branch what warn_never() reports.
     bool is_never_taken(const ast::Branch& branch, bool sound, const Truth& when, const Truth& own,
                         const std::vector<Rule>& up_to_it) {
         Untaken& untaken = untaken_[&branch];
@@ -440,8 +440,8 @@ class Checker {
         return state_ == 0 && !untaken.is_taken;
     }
 
-    /// Where the branches are that take its cases, each case once. Of the first ones only: there may be tens
-    /// of thousands, and no more are shown.
+    /// The branches that take its cases, each case once; only for the first kMost branches, since more are
+    /// not shown.
     std::vector<Span> takers(Truth left, const std::vector<Rule>& up_to_it) {
         constexpr unsigned kMost = 1'000;
         std::vector<Span> found;

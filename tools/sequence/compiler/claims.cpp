@@ -257,7 +257,7 @@ class ClaimResolver {
         return std::nullopt;
     }
 
-    /// An input or output of that name: the motor's is meant, and nobody would see it.
+    /// An input or output with the name `moving`: the property would mean the motor, unnoticed.
     void refuse_signal_named_moving(const ast::Name& name) {
         const bool is_output = place_of(symbols_.outputs, name.text).has_value();
         if (moving_is_told_ || (!is_output && !place_of(symbols_.inputs, name.text))) return;
@@ -374,7 +374,7 @@ class ClaimResolver {
         return guess.empty() ? "name one of the steps there are" : guess;
     }
 
-    /// What a time's name stands for; reports an unknown one.
+    /// The constant that a time's name stands for; reports an unknown one.
     std::optional<ast::Value> worked_out(const ast::Value& time) {
         if (scope_ != nullptr) return scope_->worked_out(time);
         if (time.kind == ast::Value::Kind::literal) return time;

@@ -57,7 +57,7 @@ class Counts {
         for (bool changed = true; changed;) {
             changed = false;
             for (const StepPlan& step : plan_.steps) {
-                // What stays in the step without a rule keeps the counter.
+                // A scan without a true rule keeps step and counter.
                 for (const Rule& rule : step.rules) {
                     const Count& before = counts_.at(step.number);
                     if ((rule.when & before.cases()).none()) continue;
@@ -79,7 +79,7 @@ class Counts {
         const Action* preset = nullptr;
     };
 
-    /// Copies of a step share their conditions: it is told if none of them goes on.
+    /// Copies of a step share their conditions: reported if no copy goes on.
     void judge(const StepPlan& step, const Rule& rule) {
         const Count& count = counts_.at(step.number);
         if (step.is_helper || (!count.zero && !count.runs)) return;

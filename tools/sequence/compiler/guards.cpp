@@ -109,7 +109,7 @@ class MotionWalk {
         return false;
     }
 
-    /// It says what the motor does from now on, if only at which speed. A STOP that ends nothing gets W050.
+    /// It sets the motor's motion, or at least its speed. A STOP that ends nothing gets W050.
     static bool is_ordered(const Rule& rule) {
         return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [](const Send& send) {
             const MotionEffect effect = motion_effect_of(send);
@@ -118,7 +118,7 @@ class MotionWalk {
         });
     }
 
-    /// In the scan after, whatever the inputs are.
+    /// In the following scan, with any inputs.
     bool goes_on_with_order(const StepPlan& step, int depth) const {
         Truth left = ~truth_of_bit(kErrorBit);
         for (const Rule& rule : step.rules) {

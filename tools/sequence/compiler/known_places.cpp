@@ -1,5 +1,5 @@
-// Where the axis surely stands when it is sent somewhere: moves that do nothing, time limits that are too
-// short.
+// Positions at which the axis surely is when a move is ordered: moves without effect, time limits that are
+// too short.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,11 +43,11 @@ struct Place {
 };
 
 struct PlaceState {
-    bool known = false;     ///< some way leads here
-    bool anywhere = false;  ///< on some way the axis may stand at a place that is not in `standing`
+    bool known = false;     ///< reachable
+    bool anywhere = false;  ///< on some way the axis may be at a position that is not in `standing`
     bool relative = false;
     bool idle = false;                   ///< on some way no move is under way
-    std::vector<Place> standing;         ///< where it may stand, by the ways that lead here
+    std::vector<Place> standing;         ///< possible positions, by the ways to this point
     std::vector<Place> going;            ///< the moves that may be under way
     std::vector<std::uint8_t> velocity;  ///< V1..V8, those that may be selected; 0: none of them
 
@@ -95,7 +95,7 @@ class PlaceWalk {
         });
     }
 
-    /// An error may stop a move, and then somebody may move the axis by hand.
+    /// An error may stop a move, and the axis may then be moved by hand.
     void enter(PlaceState& state, const StepPlan&, const Rule& rule) const {
         const bool in_position = rule.condition.length != 0 && needs_in_position(rule);
         if ((rule.when & truth_of_bit(kErrorBit)).any()) return state.lose();
@@ -291,7 +291,7 @@ class PlaceWalk {
                         std::abs(from.counts.high - to.counts.low));
     }
 
-    /// It leads, with the timer preset, to a step that INPOS leaves, and the timer for another one.
+    /// It presets the timer and leads to a step with a branch for INPOS and another one for the timer.
     bool waits_with_limit(const Rule& entering) const {
         if (symbols_.drive != nullptr || !entering.action.timer || !entering.action.next) return false;
         const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& each) {

@@ -1,4 +1,4 @@
-// What STOP does not end, and what begins to move again without an order that says so.
+// Motions that STOP does not end, and motions that begin again without an order for them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,7 +97,7 @@ class LastingMotionWalk {
     }
 
   private:
-    /// Another order of the scan says what the motor does.
+    /// Another order of the scan determines the motor's motion.
     static bool is_decided(const Rule& rule) {
         return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [](const Send& send) {
             const MotionEffect effect = motion_effect_of(send);

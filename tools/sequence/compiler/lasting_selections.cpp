@@ -100,7 +100,7 @@ class SelectionWalk {
             if (written == kGroups[i]) state.selected[i] = {{0, send.value, moves_, send.span}};
             if (select && select->selection.group == kGroups[i])
                 state.selected[i] = {{select->selection.index, 0, moves_, send.span}};
-            if (stops && kGroups[i] == Group::v) state.selected[i].clear();  // W004 tells
+            if (stops && kGroups[i] == Group::v) state.selected[i].clear();  // reported as W004
             if (set) state.selected[i] = {{*set, 0, false, send.span}};
         }
     }

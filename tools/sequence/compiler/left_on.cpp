@@ -1,4 +1,4 @@
-// Outputs that SET switched on and that a guard or an ERROR leaves on for good.
+// Outputs that SET switched on and that stay on after a guard or an ERROR.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kOutputCount = 4;
 
-/// By output, where it was SET; length 0: it is off on each way.
+/// By output, the SET that switched it on; length 0: it is off on every way.
 struct OnState {
     bool known = false;
     std::array<Span, kOutputCount> set_at{};
@@ -73,7 +73,7 @@ class OnWalk {
     }
 
   private:
-    /// What ON says for many steps, ON ERROR included.
+    /// The condition of an ON for many steps, or of ON ERROR.
     bool is_of_on(Span condition) const {
         return is_guard(program_, condition) ||
                (program_.on_error && program_.on_error->span == condition && condition.length != 0);
@@ -121,7 +121,7 @@ class OnWalk {
     const Plan& plan_;
     const Symbols& symbols_;
     Report& report_;
-    std::uint8_t reset_somewhere_ = 0;  ///< of others W024 tells
+    std::uint8_t reset_somewhere_ = 0;  ///< outputs for which W024 is reported
     const StepPlan* step_ = nullptr;
     std::set<std::pair<std::uint32_t, std::size_t>> said_;
 };

@@ -233,7 +233,7 @@ class MotorWalk {
                            writes, place, first);
     }
 
-    /// In the list behind ENTRY, where `first` could not stand as it is.
+    /// In an ENTRY, where `first` could not be inserted as it is.
     bool is_in_entry(const Send& send) const {
         constexpr std::string_view kWord = "ENTRY";
         std::string_view before = source_.substr(0, send.span.offset);
@@ -242,7 +242,7 @@ class MotorWalk {
         return before.size() >= kWord.size() && same_name(before.substr(before.size() - kWord.size()), kWord);
     }
 
-    /// Its value is the operator's, and no constant of another register (E026).
+    /// The operator sets its value, so no other register may have it (E026).
     bool is_set_point(const Selection& selection) const {
         return std::any_of(set_points_.begin(), set_points_.end(), [&](std::uint8_t number) {
             const auto own = selection_of(number);

@@ -90,7 +90,7 @@ class AwayWalk {
                 return;
         }
         state.soll_is_0 = false;
-        state.ran = {};  // a written target is taken as meant
+        state.ran = {};  // a written target counts as intended
     }
 
     static void apply_command(AwayState& state, const Send& send) {

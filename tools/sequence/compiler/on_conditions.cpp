@@ -92,7 +92,7 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
         const std::size_t errors = scope.report().error_count() + scope.faulty_names_met();
         OnCondition on{&written, scope.branch_truth(written.condition), {}};
         const bool is_sound = scope.report().error_count() + scope.faulty_names_met() == errors;
-        if (!is_sound) on.when.reset();  // what it stands for is not known: it takes no case of others
+        if (!is_sound) on.when.reset();  // its value is unknown: it takes no cases from others
         if (on.when.none() && is_sound) {
             scope.report().add("W001", written.condition.span, "this condition never holds",
                                "it contradicts itself: mend it, or take the line out");

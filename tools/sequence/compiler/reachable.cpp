@@ -50,7 +50,7 @@ bool has_return(const ast::Sequence& sequence) {
     return false;
 }
 
-/// Tells of each sequence once, and goes on as if it returned. True if one was told.
+/// Reports each sequence once, and continues as if it returned. True if one was reported.
 bool tell_missing_return(const std::vector<MissingReturn>& missing, const StepSet& reached, Targets& targets,
                          Report& report) {
     const auto lost = std::find_if(missing.begin(), missing.end(), [&](const MissingReturn& one) {

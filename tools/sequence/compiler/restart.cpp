@@ -1,4 +1,4 @@
-// Whether a machine moves without being told: after a fault, after a guard, at power-up.
+// Whether a machine moves without a command: after a fault, after a guard, at power-up.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,9 +62,9 @@ struct Moved {
 /// By step, the inputs with which it can be active.
 using Reached = std::array<Images, 64>;
 
-/// Whether the motor may move again while no input changes: an acknowledgement is an input that had to, or
-/// that must be on and is asked nowhere else. Steps that remember an edge are copies here, so that R_TRIG and
-/// F_TRIG hold for no input that stays.
+/// Whether the motor may move again while no input changes. An acknowledgement is an input that must change,
+/// or that must be on and is tested nowhere else. Steps that remember an edge are separate copies here, so
+/// that R_TRIG and F_TRIG do not hold for an input that stays.
 class Restart {
   public:
     Restart(const ast::Program& program, const Plan& plan, std::optional<std::uint8_t> fault, Report& report)
@@ -186,7 +186,8 @@ class Restart {
         return inputs;
     }
 
-    /// It needs a button for just that. What starts a move beside is no acknowledgement of a guard.
+    /// It requires a button that is used for this only. An input that also starts a move does not acknowledge
+    /// a guard.
     bool is_acknowledged(const Rule& rule, bool by_guard) const {
         if (by_guard && motion_of(rule) != nullptr) return false;
         const Images when = images_of(rule.when, true);

@@ -62,7 +62,7 @@ class Scope {
     }
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
     const ast::Constant* constant(std::string_view name) const { return constants_.find(name); }
-    /// "a velocity", by the unit of a value; empty if the unit does not tell.
+    /// "a velocity", by the unit of a value; empty if the unit is not specific.
     std::string_view kind_of(const ast::Value& value) const;
 
     /// Evaluates a value with its names; reports errors. `reg`: the value's register.

@@ -24,7 +24,7 @@ struct Source {
 
 struct SpeedState {
     bool known = false;
-    std::set<Source> sources;  ///< none after a STOP, of which W004 tells elsewhere
+    std::set<Source> sources;  ///< none after a STOP, for which W004 is reported elsewhere
 
     bool is_known() const { return known; }
     bool join(const SpeedState& other) {
@@ -86,7 +86,7 @@ class SpeedWalk {
         return point.lowest <= 0 && point.highest >= 0;
     }
 
-    /// Where it becomes 0. A register that is 0 only for a while counts as one that is not.
+    /// The order after which it is 0. A register that is 0 for a time only counts as not 0.
     const Send* zero_of(const Source& source) const {
         if (source.written != nullptr) return may_be_zero(*source.written) ? source.written : nullptr;
         const auto given = given_.find(source.index);

@@ -174,7 +174,7 @@ void Parser::note_place(ast::Role role) const {
     if (is_place()) expected_->names.push_back(role);
 }
 
-/// STEP NEVER: is told there, once, and its uses are read as those of a name.
+/// STEP NEVER: is reported at its declaration only; its uses are read as those of a name.
 bool Parser::is_declared_step(std::string_view word) const {
     for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
         const Token& behind = tokens_[i + 2];

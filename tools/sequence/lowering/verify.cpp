@@ -18,7 +18,8 @@ std::uint8_t resting_in(std::size_t c, const StepPlan& step) {
     return outputs;
 }
 
-/// What a rule asks for, or no rule, in every case in which it is true; the outputs only if it leaves.
+/// The outcome that a rule, or no rule, requires in every case in which it is true; the outputs only if it
+/// leaves the step.
 table::Outcome wanted_of(const Action& action, const StepPlan& step,
                          const std::vector<std::uint8_t>& outputs_of) {
     table::Outcome wanted;
@@ -34,7 +35,7 @@ table::Outcome wanted_of(const Action& action, const StepPlan& step,
     return wanted;
 }
 
-/// Whether the outcome is what is wanted, outputs apart: by the number of either.
+/// Whether two outcomes, given by their numbers, are equal apart from the outputs.
 class Comparison {
   public:
     Comparison(const std::vector<table::Outcome>& wanted, const std::vector<table::Outcome>& done)

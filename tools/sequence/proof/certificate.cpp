@@ -74,7 +74,7 @@ std::string wrong_format(const std::string& format) {
     if (format == kFormat) return "";
     if (!format.starts_with(kAnyFormat)) return kForeign;
     if (format == "nanoplc-proof-1")
-        return "is one of an older seqc verify (nanoplc-proof-1), which did not tell proofs of nothing";
+        return "is one of an older seqc verify (nanoplc-proof-1), which did not report vacuous proofs";
     return fmt::format("is of a format that this program does not know ({})", format);
 }
 

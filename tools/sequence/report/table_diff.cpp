@@ -205,7 +205,7 @@ class Differ {
         return name_before(before) == name_now(now);
     }
 
-    /// Only where both have set-points: else it is told of these.
+    /// Only if both have set-points: otherwise the set-points are reported.
     void compare_takers(const Symbols* before, const Symbols* now) {
         if (before == nullptr || now == nullptr) return;
         const set_points::Record& old = before->set_points;

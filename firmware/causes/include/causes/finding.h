@@ -54,7 +54,7 @@ struct Rule {
     Condition only_hinders = nullptr;  ///< instead of stopping it
 };
 
-/// `text` with what `word` says for each {KEY}.
+/// `text` with word(KEY) in the place of each {KEY}.
 std::string filled(std::string_view text, std::string_view first,
                    const std::function<std::string(std::string_view)>& word);
 /// The words between blanks.

@@ -54,7 +54,7 @@ struct MidiTexts {
     std::string speed{};
 };
 
-/// The causes that keep it from moving, the most urgent first; that it moves comes before all others. Never
+/// The causes that keep it from moving, the most urgent first; a finding that it moves comes first. Never
 /// empty.
 std::vector<Finding> why(const MidiState& drive, const std::optional<GatewayState>& gateway = {},
                          const MidiTexts& texts = {});

@@ -9,7 +9,7 @@
 
 namespace nplc::gateway {
 
-/// How a command or a write ended, as register RESULT has it, in one word.
+/// Outcome of a command or a write, one word as in register RESULT.
 class CommandResult {
   public:
     /// `detail`: for a table fault, the number of the term.

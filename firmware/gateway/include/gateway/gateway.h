@@ -74,9 +74,9 @@ class Gateway {
     void end_start_up() { permission_.end_start_up(); }
     /// For the start-up: disables automatic start and shows `reason` until run().
     void block_start(SafeReason reason);
-    /// The same, and the store must say that somebody has commanded run before anything runs: a run() then
-    /// wants_mark() until mark_run(), or refuse_run_mark(), with which it has not started. not_started:
-    /// nobody has commanded run with this store yet.
+    /// The same, and a run must be marked in the store first: after run() wants_mark() is set until
+    /// mark_run(), or until refuse_run_mark(), with which the run has failed. not_started: run was never
+    /// commanded with this store.
     void wait_for_mark(SafeReason reason);
     bool needs_mark() const { return waits_because_ != SafeReason::none; }
     bool waits_for_first_run() const { return waits_because_ == SafeReason::not_started; }
@@ -231,7 +231,7 @@ class Gateway {
     bool stop_after_loss_ = false;  ///< the motor is to be stopped again once the link delivers
     bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
     bool is_mark_refused_ = false;  ///< of the last run()
-    SafeReason waits_because_ = SafeReason::none;  ///< until somebody's run() is marked in the store
+    SafeReason waits_because_ = SafeReason::none;  ///< until a run is marked in the store
     std::uint8_t motor_fault_ = 0;                 ///< as noted in the log
     bool line_is_late_ = false;                    ///< likewise
     StartPermission permission_;

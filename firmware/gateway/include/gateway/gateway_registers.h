@@ -53,7 +53,7 @@ class GatewayRegisters {
     PortCounters& port() { return port_; }
     /// A client has requested a reset, and no set-point request is being stored.
     bool reset_asked() const { return reset_asked_ && !set_points_.stores(); }
-    /// An activation or a reset asks the motor whether it stands still: nobody else may use its access.
+    /// An activation or a reset reads the motor to check for standstill: its access is in use.
     bool asks_motor() const { return waiting_ == Waiting::activation || waiting_ == Waiting::reset; }
     void poll();
     /// Latest time of the next poll(), and of poll_write() while a write is in progress.

@@ -42,10 +42,10 @@ class SettingsManager {
     PendingResult poll_save() const;
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
-    /// For boards that keep with the settings that somebody has commanded run; after attach(), before a table
-    /// is loaded. Without it the gateway waits for run(); after a crash it is taken back, in the store too.
+    /// For boards that store the mark of a run with the settings; after attach(), before a table is loaded.
+    /// Without the mark the gateway waits for run(); after a crash the mark is cleared, in the store too.
     void keep_mark(bool is_after_crash);
-    /// On such a board: somebody commands run. Settings that were not kept are not kept by it.
+    /// On such a board: run was commanded. Stores the mark, but no settings that were not saved.
     void begin_mark();
 
     bool differ() const { return values_ != stored_; }

@@ -8,10 +8,10 @@
 
 namespace nplc::motor {
 
-/// A stop for a motor from which nothing is heard (001 §5.2): 7Fh and FFh twice each bring it into FlexMAC
-/// whatever its toggle, MODE_REG := 0 twice, 7Eh three times bring it back. A pause of two characters before
-/// each part ends what the motor may have taken for the beginning of another message. Never before the link
-/// has been declared lost: a motor in step would be put out of it.
+/// A stop for a motor that does not answer (001 §5.2): 7Fh and FFh twice each bring it into FlexMAC whatever
+/// its toggle, MODE_REG := 0 twice, 7Eh three times bring it back. A pause of two characters before each part
+/// ends what the motor may have taken for the beginning of another message. Never before the link has been
+/// declared lost: a motor in step would be put out of it.
 class BlindStop {
   public:
     /// The first one is sent at `from` at the earliest.
@@ -20,7 +20,7 @@ class BlindStop {
         allowed_ = true;
     }
     bool is_allowed() const { return allowed_; }
-    /// A new stop was asked for: the quick repetition begins again.
+    /// A new stop was requested: the quick repetition begins again.
     void begin_anew() { pace_.begin_anew(); }
 
     /// A sequence of parts has been started and not finished.

@@ -72,7 +72,7 @@ enum class BusFault : std::uint8_t {
 /// harmless. Every message ends in bounded time.
 class MidiLink {
   public:
-    /// Of a message under way nothing is told any more.
+    /// A message still in progress gets no outcome any more.
     virtual void begin(const MidiMessage& message, base::Instant now) = 0;
     /// Sends and receives; returns an outcome once per message.
     virtual MidiOutcome poll(base::Instant now) = 0;

@@ -68,7 +68,7 @@ class MidiMotor final : public Motor {
     /// The first reason of the present ERROR; cleared by "reset error" (01h).
     MidiFault fault() const;
     Limitation limitation() const { return limitation_; }           ///< of a `bad_value`
-    std::uint32_t drive_status() const { return drive_.status(); }  ///< GET_STATUS, as last heard
+    std::uint32_t drive_status() const { return drive_.status(); }  ///< GET_STATUS, as last received
     const MidiDrive& drive() const { return drive_; }
     bool is_at_target() const { return registers_.mode() == 2 && in_position(); }
     /// The mode is a motion mode and V_SOLL is 0, which blocks every move.

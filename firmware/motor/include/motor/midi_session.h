@@ -21,9 +21,9 @@ class MidiSession {
     Link link() const;
     std::uint32_t losses() const { return losses_; }
 
-    /// Nothing is heard: a stop that is wanted is sent all the same, in place of queries.
+    /// Nothing is received: a requested stop is sent nevertheless, in place of queries.
     bool is_blind() const { return blind_ && is_down(); }
-    /// That stop is due, whatever message is under way.
+    /// That stop is due, even during a message in progress.
     bool is_stop_due(base::Instant now) const { return is_blind() && now >= next_query_; }
     /// While it is not up: what is to be sent.
     MidiNext start_up(bool stop_wanted, base::Instant now);

@@ -42,7 +42,7 @@ class MidiV24Link final : public MidiLink {
     std::uint8_t sent_ = 0;
     State state_ = State::idle;
     bool is_urgent_ = false;  ///< 18h, which waits for no silence
-    bool noisy_ = false;      ///< something unexpected was heard, or may still come
+    bool noisy_ = false;      ///< an unexpected character was received, or may still arrive
     bool spoilt_ = false;     ///< a framing error since the request
     bool heard_any_ = false;  ///< since the request
     protocol::AnswerCount answers_;

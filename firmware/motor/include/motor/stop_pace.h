@@ -9,7 +9,7 @@ namespace nplc::motor {
 /// How often a stop that is not confirmed is repeated: every 50 ms for 1 s, then every 500 ms.
 class StopPace {
   public:
-    /// A new stop was asked for.
+    /// A new stop was requested.
     void begin_anew() { count_ = 0; }
     /// A stop is sent: the pause until the next one.
     base::Microseconds next() {

@@ -10,8 +10,8 @@ namespace nplc::registers::gateway {
 
 /// The numbers are stored and must not change.
 enum class Setting : std::uint8_t {
-    /// Not the user's to set, and in no list: the SafeReason for which nothing starts by itself until
-    /// somebody has commanded run; `none` once somebody has, initially `not_started`.
+    /// Not a setting of the user, and in no list: the SafeReason that prevents an automatic start until run
+    /// is commanded; then `none`, initially `not_started`.
     waits_for_run = 0,
     gateway_address = 1,
     user_baud = 2,

@@ -263,7 +263,7 @@ constexpr std::string_view name_of(DriveFault fault) {
          {end_stop, "an end-stop ended its motion"},
          {not_arrived, "it stands, and not where it was sent"},
          {refused, "it refused a command"},
-         {unclear, "nobody knows whether it took a command"},
+         {unclear, "unknown whether it took a command"},
          {bad_value, "an order that it cannot do"},
          {unreadable, "its answers cannot be read"},
          {several, "several drives answer to its address"},

@@ -24,8 +24,8 @@ struct Change {
 /// Decodes the view of changes; the oldest first.
 std::vector<Change> decode_changes(std::span<const std::uint8_t> bytes, const Record& record);
 
-/// "Length 80 mm to 100 mm, Pieces 3 to 5": what was changed at this uptime; empty if nothing is known of it.
-/// Of the oldest that is kept it says that more may have been changed.
+/// "Length 80 mm to 100 mm, Pieces 3 to 5": the changes at this uptime; empty if none is known. For the
+/// oldest one kept the text adds that there may have been more.
 std::string changes_text(const std::vector<Change>& changes, const Record& record,
                          std::uint32_t milliseconds);
 

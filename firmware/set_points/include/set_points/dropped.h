@@ -14,7 +14,7 @@ enum class DropReason : std::uint8_t {
     gone,           ///< the table has no set-point of this name
     other_unit,     ///< in which the register, timer or counter counts
     out_of_range,   ///< of the table's set-point
-    not_for_motor,  ///< only a gateway knows
+    not_for_motor,  ///< known to the gateway only
     no_fit,         ///< one of the reasons above: the kept value is not known
     other_scale,    ///< not dropped: the register keeps its value, which is another one in the unit
 };
@@ -35,8 +35,9 @@ struct Kept {
     const std::vector<std::int32_t>& wanted;
     const std::vector<Recipe>& recipes;  ///< as decoded with the record
 };
-/// What a table with the record `now` does not take of it: of the wanted values, none if all of them are the
-/// former defaults, as they are where nothing was ever set; of the recipes, what fitted before.
+/// The values of `before` that a table with the record `now` does not accept: of the wanted values none if
+/// all of them are the former defaults, since then none was ever set; of the recipes those that were valid
+/// before.
 std::vector<Dropped> dropped_by(const Kept& before, const Record& now);
 /// Of a recipe as it was saved, without the names of set-points that the record does not have.
 std::vector<Dropped> misfits_of(const Recipe& recipe, const Record& record);

@@ -24,7 +24,7 @@ struct SetPoint {
     std::string unit;  ///< as written in the program; may be empty
     double steps_per_unit = 1;
     double step = 0;  ///< in `unit`; 0: every value of the range
-    /// From where the steps are laid, in `unit`: the lower end as the program has it. Nothing: as shown.
+    /// Origin of the steps, in `unit`: the lower end as the program has it. Empty: as shown.
     std::optional<double> grid_from{};
     std::int32_t initial = 0;
     std::int32_t lowest = 0;

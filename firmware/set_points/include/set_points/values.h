@@ -22,7 +22,7 @@ bool is_on_grid(const SetPoint& point, std::int32_t value);
 /// "1200 or 1300": the steps next to a value that is on none, in the unit; only the one before it where the
 /// other is outside of the range.
 std::string grid_beside(const SetPoint& point, std::int32_t value);
-/// "80 mm": in the unit, with as many digits as tell it from its neighbours.
+/// "80 mm": in the unit, with as many digits as distinguish it from its neighbours.
 std::string text_of(const SetPoint& point, std::int32_t value);
 /// The fewest digits that are read as this value; a STEP's own number may have more.
 std::string short_text_of(const SetPoint& point, std::int32_t value);
@@ -34,8 +34,8 @@ struct Reading {
     std::string error;  ///< the error, with the name and the limits; empty if valid
 };
 
-/// "80", "80 mm", "80mm": the unit of the set-point, or none; of times ms and s too. Refused: what is no
-/// number, another unit, what lies outside of the range, a count that is no whole number, and what is not on
+/// "80", "80 mm", "80mm": in the unit of the set-point or without one; for times also ms and s. Refused: no
+/// number, another unit, a value outside of the range, a count that is not whole, and a value that is not on
 /// the grid.
 Reading read_value(const SetPoint& point, std::string_view text);
 

@@ -56,7 +56,7 @@ class ByteClient {
     enum class Rest : std::uint8_t {
         not_shared,   ///< the line was not released, and no time has passed
         held,         ///< the line is locked again; bytes received meanwhile belonged to other programs
-        still_taken,  ///< locked by another program, see `holder`; rest again, or give up
+        still_taken,  ///< locked by another program, see `holder`; call rest() again, or give up
     };
     /// Releases a line that is shared in turns for this time (at least 5 ms), and waits up to 100 ms to lock
     /// it again. A line held with Holding::at_once is not released: from its first call on the other programs

@@ -61,8 +61,8 @@ class Connections {
     /// to are included every time.
     virtual std::vector<Id> with_news() = 0;
     virtual Got read(Id client, std::span<std::uint8_t> out) = 0;
-    /// As read() would tell it, but of now: false once the client has closed its sending side or is gone,
-    /// whether or not all it sent has been read. Always true of a serial line.
+    /// As read() would report it, at this moment: false once the client has closed its sending side or is
+    /// gone, even if data are still unread. Always true for a serial line.
     virtual bool is_open(Id client) const = 0;
     /// Number of accepted bytes; empty: the client has disconnected.
     virtual std::optional<std::size_t> write(Id client, std::span<const std::uint8_t> bytes) = 0;

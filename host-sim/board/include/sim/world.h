@@ -24,9 +24,9 @@ namespace nplc::sim {
 
 /// When the simulated board polls the firmware.
 enum class Polling : std::uint8_t {
-    steadily,     ///< every 250 us, and when a character arrives from the motor
+    steadily,     ///< every 250 us, and when a character from the motor or another deadline requires it
     at_need,      ///< when something arrives, and when the firmware's deadline is due
-    beyond_need,  ///< both together: every 250 us and at need
+    beyond_need,  ///< both: every 250 us, and when required
 };
 
 struct WorldOptions {
@@ -38,13 +38,12 @@ struct WorldOptions {
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
-    /// It starts by itself only once somebody has commanded run with its store.
+    /// A new store: nothing starts automatically until run was commanded once.
     bool is_new = false;
     Servo::Depth depth = Servo::Depth::current_loop;  ///< of the motor's computation
     Load load{};                                      ///< of the motor's shaft
     gateway::Settings gateway{};                      ///< used while nothing is stored
-    std::uint32_t user_baud =
-        19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
+    std::uint32_t user_baud = 19'200;         ///< while nothing is stored; its clients use the gateway's rate
     std::vector<StoredRegister> registers{};  ///< in the drive's flash, in addition to the factory values
     bool user_submits = false;         ///< messages of a listener (UserPort::submit) instead of the user line
     bool motor_mactalk_wired = false;  ///< the motor's own MacTalk port, to the gateway's second user port
@@ -82,7 +81,7 @@ class World final : public Stage, private gateway::Observer {
     /// As things stand, with the orders since the last call.
     Snapshot take_snapshot();
 
-    /// What the JVL motor has executed since the last call; mac().orders() forgets it.
+    /// Orders executed by the JVL motor since the last call; mac().orders() no longer has them.
     std::deque<Order> take_executed() { return mac_.take_orders(); }
 
     /// The orders that the driver has neither executed nor dropped, by their numbers among all orders given,

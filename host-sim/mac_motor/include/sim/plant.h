@@ -84,8 +84,8 @@ class Plant {
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
     static constexpr std::int32_t kStrongestBrake = 1'000'000;
-    /// Stiction at low speed: a little additional friction, less than the torques' unit. Torques are whole
-    /// numbers, so one that equals the friction is common, and would let the shaft creep forever.
+    /// Stiction at low speed: a small additional friction, less than the unit of torque. Torques are whole
+    /// numbers, so a torque often equals the friction, and without stiction the shaft would creep forever.
     static constexpr double kStick = 0.75;
     static constexpr double kSlow = 0.375;  // counts an outer sample
 
@@ -130,8 +130,8 @@ class Plant {
     double velocity_ = 0;        // counts/step
 };
 
-/// The motor's power supply: a source that gives but does not take, the capacitor of the bus, and the power
-/// dump that turns what comes back from the shaft into heat (001 §3.2.18, §4.5.2).
+/// The motor's power supply: a source that does not take energy back, the capacitor of the bus, and the power
+/// dump that turns energy returned by the shaft into heat (001 §3.2.18, §4.5.2).
 class Supply {
   public:
     struct Constants {
@@ -141,7 +141,7 @@ class Supply {
         double dump_ohms;
         double farads;
     };
-    static constexpr double kLeast = 1;  // V, what keeps a division alive
+    static constexpr double kLeast = 1;  // V, prevents a division by 0
     static constexpr double kMost = 1000;
     static constexpr double kBleedSeconds = 0.5;  ///< time constant with which the bus falls to its source
     static constexpr double kHold = 1.004;        ///< times dump_volts: what the dump keeps the bus at
@@ -163,8 +163,8 @@ class Supply {
     double volts() const { return volts_; }
     bool dumping() const { return volts_ > constants_.dump_volts; }
 
-    /// `watts` go to the windings for a step; negative: they come back. Source and dump in implicit steps,
-    /// which no step is too long for.
+    /// `watts` go to the windings for a step; negative: they come back. Source and dump are integrated
+    /// implicitly, which is stable for any step.
     void step(double watts) {
         double volts = volts_ - watts / volts_ * volts_of_ampere_;
         if (volts > held_) volts = std::max(volts - volts * dumped_, held_);
@@ -185,12 +185,12 @@ class Supply {
     double volts_;
 };
 
-/// The iron and copper of a family, ours; the folder's README says from what. MAC50, 95, 140 and 141 share
-/// one.
+/// Electrical and magnetic constants of a family, chosen by this project; the folder's README says how.
+/// MAC50, 95, 140 and 141 share one set.
 struct MotorConstants {
     double outer_period;       ///< s
     double full_acceleration;  ///< of the bare motor at full torque, counts/sample^2 of the outer loop
-    double emf_inertia;        ///< of the motor's, what a rising EMF makes of it with the box's current loop
+    double emf_inertia;        ///< of the motor, as seen with the rising EMF and the current loop of the box
     std::int32_t counts_a_field;  ///< encoder counts in a turn of the field
     double full_current;          ///< peak phase current at full torque, register units
     double resistance;            ///< voltage units a current unit

@@ -26,7 +26,7 @@ class VirtualCanPort final : public ports::CanPort {
     /// A frame that has arrived.
     void receive(const base::CanFrame& frame);
     void set_state(ports::CanState state) { state_ = state; }
-    /// Share of the frames that nobody gets, in either direction.
+    /// Share of frames that are lost, in either direction.
     void lose(double share) { lose(share, share); }
     void lose(double sent, double received) {
         loss_of_sent_ = sent;

@@ -87,7 +87,7 @@ class MidiModule {
     /// A constant load torque in steps of TORQUE, positive clockwise. Below the motor's torque it is only
     /// compensated; above it, it drags the shaft.
     void set_load(std::int32_t torque) { motion_.set_load(torque); }
-    /// Turned by hand; with power off nothing turns it back.
+    /// Turned by hand; with power off it does not return.
     void turn_shaft(std::int32_t increments) { motion_.turn_shaft(increments); }
 
     Model model() const { return model_; }

@@ -26,7 +26,7 @@ class MidiShaft {
     /// An end that the shaft is beyond holds it in place.
     void stop(bool above, std::int64_t at);
     void free() { low_ = high_ = std::nullopt; }
-    /// Its ends leave it no room.
+    /// The mechanical ends leave no room to move.
     bool is_blocked() const { return low_ && high_ && *low_ >= *high_; }
     void hold(bool held) { held_ = held; }
     void set_load(std::int32_t torque) { load_ = torque; }

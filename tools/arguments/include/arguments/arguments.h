@@ -62,7 +62,7 @@ struct ParseResult {
     std::string error{};  ///< one line, when `wrong`
 };
 
-/// A program's command line, or one of its commands. Variables must live as long as it.
+/// A program's command line, or one of its commands. Variables must outlive it.
 class App {
   public:
     explicit App(const std::string& description, const std::string& name = {});
@@ -92,7 +92,7 @@ class App {
     void require_subcommand(unsigned count);
     /// Adds `help [COMMAND]`, which prints the same as --help.
     void add_help_command();
-    /// Options that a command does not know are looked for in the App above it.
+    /// Options that a command does not have are searched in the App above it.
     void fallthrough();
     void callback(const std::function<void()>& work);
     void footer(const std::string& text);

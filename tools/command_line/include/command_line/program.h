@@ -13,21 +13,21 @@
 #include "host/byte_client.h"
 #include "mactalk_client/line.h"
 
-/// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
-/// and failures are told.
+/// Common parts of the programs for a MacTalk line: options, exit codes, signals, output of results and
+/// failures.
 namespace nplc::command_line {
 
 using enum mactalk_client::Exit;
 
 using Json = nlohmann::ordered_json;
 
-/// Speeds that lines have, the usual one first. 001 and 002 know 19200 only; expansion modules and converters
-/// may be set otherwise.
+/// Usual speeds of lines, the most common one first. 001 and 002 have 19200 only; expansion modules and
+/// converters may be set otherwise.
 inline constexpr std::array<std::uint32_t, 11> kSpeeds{19'200, 9'600, 38'400,  57'600,  115'200, 4'800,
                                                        2'400,  1'200, 230'400, 460'800, 921'600};
 
-/// One line for a user and the program's exit code. `details` go into the document of --json. Who throws
-/// one with details, or tells something, includes <nlohmann/json.hpp>.
+/// A one-line message for the user, and the program's exit code. `details` become part of the document of
+/// --json. Files that throw one with details, or call tell, include <nlohmann/json.hpp>.
 class Failure : public mactalk_client::Ended {
   public:
     Failure(int exit_code, const std::string& what);
@@ -85,7 +85,7 @@ Added<Options> add_command(arguments::App& app, const std::string& name, const s
     return {command, *options};
 }
 
-/// Does the work of a subcommand; sets the exit code and tells what went wrong.
+/// Does the work of a subcommand; sets the exit code and prints the error, if any.
 void guard(Common& common, const std::function<void()>& what);
 
 /// With what `what` takes: the common options, or a session made of them.
@@ -146,8 +146,8 @@ bool output_has_reader();
 /// Throws mactalk_client::Interrupted if one came.
 void look_for_interruption();
 
-/// Looks every `interval` until Ctrl-C, until nobody reads the output, or for so many seconds if not 0.
-/// Waits by session.pause, in pieces.
+/// Calls `look` every `interval` until Ctrl-C, until the output has no reader, or for so many seconds if not
+/// 0. Waits by session.pause, in pieces.
 template <class Session, class Look>
 void watch(Session& session, base::Milliseconds interval, double seconds, Look look) {
     constexpr base::Microseconds kPiece{100'000};

@@ -13,7 +13,7 @@
 namespace nplc::macreg {
 
 struct ChangeResult {
-    std::optional<std::int64_t> before{};  ///< of a stop not known: nothing is asked before it is sent
+    std::optional<std::int64_t> before{};  ///< unknown for a stop, which is sent before anything is read
     std::int64_t after = 0;
     bool taken = true;
     std::string why{};     ///< a sentence with the remedy, if it was not accepted
@@ -31,9 +31,9 @@ bool is_stop(registers::Model model, const registers::Register& reg, std::int64_
 /// The text in every message about a stop that the motor has not confirmed.
 inline constexpr const char* kMayMove = "not confirmed: the motor may be moving";
 
-/// Writes a stop to MODE_REG of a motor that has not been asked for anything yet, at most `attempts` times;
-/// true: it was accepted. Without `model` it is a word, which changes no other register of any model; a
-/// MAC800 takes longwords only, and so no notice of it. Throws LineError if the port is gone.
+/// Writes a stop to MODE_REG of a motor that was not read yet, at most `attempts` times; true: it was
+/// accepted. Without `model` it is a word, which changes no other register of any model; a MAC800 accepts
+/// longwords only and ignores it. Throws LineError if the port is gone.
 bool stop_unasked(mactalk_client::Master& master, std::uint8_t address, std::optional<registers::Model> model,
                   std::int64_t raw, unsigned attempts);
 

@@ -45,7 +45,7 @@ struct ValuesBefore {
 /// None if its firmware does not support them, the active table has none, or the very record `next`, or if
 /// they cannot be read: that is no reason to upload nothing.
 std::optional<ValuesBefore> read_before(GatewayClient& gateway, const set_points::Record& next);
-/// What a table with the record `next` will not take of it, as far as the record tells.
+/// The values and recipes that a table with the record `next` will not accept, as far as the record shows.
 std::vector<set_points::Dropped> foreseen_drops(const ValuesBefore& before, const set_points::Record& next);
 /// What the table that has just become active, with the record `now`, did not take.
 std::vector<set_points::Dropped> read_dropped(GatewayClient& gateway,

@@ -11,7 +11,7 @@ namespace nplc::nanoctl {
 struct Why {
     std::vector<causes::Finding> findings{};  ///< the most urgent cause first; never empty
     bool knows_motor = false;                 ///< the findings of `macreg why`; else of the gateway alone
-    bool motor_is_silent = false;             ///< the motor was asked, and could not be read
+    bool motor_is_silent = false;             ///< the motor was to be read, and could not be
 };
 
 /// The gateway's own findings, without a request to its motor.

@@ -16,12 +16,12 @@ struct KeyFiles {
     orders::TrustedKey key;
     bool has_secret = false;
 };
-/// By their names.
+/// In the order of their names.
 std::vector<KeyFiles> list_keys(const std::string& folder);
 
-/// From a file that only its owner can read.
+/// Refuses a file that others than its owner can read.
 orders::SecretKey read_secret_file(const std::string& path);
-/// As it is, the seed's.
+/// The public key of the seed.
 orders::TrustedKey public_of(const orders::SecretKey& secret);
 
 }  // namespace nplc::nanofleet

@@ -70,8 +70,8 @@ struct Symbols {
     bool operator==(const Symbols&) const = default;
 };
 
-/// The step as it was written: of a copy that the compiler made for what a step remembers (an edge, a lamp
-/// that blinks, an output that is set) its original. A step of a later CALL is one of its own.
+/// The step as it was written: for a copy that the compiler made (for an edge, blinking, an output that is
+/// set) its original. A step of a later CALL is its own original.
 inline std::uint8_t step_as_written(const Symbols& symbols, std::uint8_t step) {
     if (step >= symbols.copy_of.size() || !symbols.made_for[step].starts_with("copy of ")) return step;
     return symbols.copy_of[step].value_or(step);

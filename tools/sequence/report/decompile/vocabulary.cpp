@@ -37,7 +37,7 @@ std::string_view text_of(table::Oddity oddity) {
         case table::Oddity::of_step_62:
             return "the step cannot have a name";
         case table::Oddity::level_without_care:
-            return "it wants inputs it does not care for";
+            return "INPUT has levels that CARE masks";
         case table::Oddity::next_is_63:
             return "NEXT 63 is no step";
         case table::Oddity::unused_bits:
@@ -121,7 +121,7 @@ std::string length_text(const Register& reg, std::int64_t number, const Symbols&
     return value.empty() ? value : fmt::format("{} {}", value, written);
 }
 
-/// What SCALE makes of the number has no short text that means exactly this number.
+/// With SCALE no short text stands for exactly this number.
 bool is_rounded(const Register& reg, std::int64_t number, const Symbols& symbols) {
     if (!symbols.scale) return false;
     const LengthUnit unit{symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};

@@ -41,7 +41,7 @@ class Builder {
     using Key = std::tuple<std::string, std::string, std::uint8_t>;
     using Bundles = std::map<Key, Steps>;
 
-    /// That has a box of its own.
+    /// For each step with a box of its own.
     template <class Use>
     void for_each_step(Use use) const {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {

@@ -79,7 +79,7 @@ const Written::Step* GraphWays::written_step(std::uint8_t step) const {
     return found == written_->steps.end() ? nullptr : &*found;
 }
 
-/// Whether the table does what the branch says; a TERM may have changed that.
+/// Whether the table does what the branch is written for; a TERM may have changed that.
 bool GraphWays::is_true(const Written::Branch& branch, std::uint8_t step) const {
     const std::uint8_t goes_to = branch.by_helper.value_or(branch.next.value_or(step));
     for (std::size_t c = branch.when._Find_first(); c < kCases; c = branch.when._Find_next(c)) {

@@ -58,8 +58,8 @@ class Listener {
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
 
-    /// Asked right before an operating message is handed out: false once its client has closed its sending
-    /// side. Without it only left() and gone() tell.
+    /// Called right before an operating message is handed out: false if its client has closed its sending
+    /// side. Without it only left() and gone() report that.
     void ask_who_is_there(std::function<bool(Id client)> is_there) { is_there_ = std::move(is_there); }
 
     // Socket side. Clients are given in any order; looked() comes after all of them.

@@ -71,7 +71,7 @@ class AxisModel {
     void watch(Bell& bell);
     /// From the axis's loop, before the bell is destroyed.
     void ignore(const Bell& bell);
-    /// The bell must live until the axis's loop has ended.
+    /// `bell` must outlive the axis's loop.
     void wake_loop_with(Bell& loop);
 
     // The loop's side.

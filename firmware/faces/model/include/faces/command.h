@@ -22,7 +22,7 @@ struct Command {
         reset_error,  ///< clears the error bits of ERR_STAT and keeps its settings; on a MIDI drive as 01h
                       ///< does
         take_seat,
-        take_over_seat,  ///< whoever has it
+        take_over_seat,  ///< from any holder
         leave_seat,
     };
     Kind kind = Kind::write_own;
@@ -63,7 +63,8 @@ struct Completion {
     Result result = Result::done;
     std::uint16_t detail = 0;  ///< as in RESULT: the term of a table's fault; of seat_taken see REGISTERS.md
     std::uint32_t value = 0;   ///< the motor register that was read
-    /// Of a stop with stop_unconfirmed: the axis's loop has not said how it ended. It is still carried out.
+    /// Of a stop with stop_unconfirmed: the axis's loop has not reported its outcome. It is still carried
+    /// out.
     bool is_axis_silent = false;
 };
 

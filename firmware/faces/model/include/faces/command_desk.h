@@ -52,12 +52,12 @@ class CommandDesk {
         /// The command's id; empty: too many pending commands of this client (busy). A stop is always
         /// accepted; earlier commands of this client that have not begun end as too_late.
         std::optional<std::uint32_t> submit(const Command& command);
-        /// The next outcome. A stop is answered for an axis that does not answer: kUnread after the first
-        /// take() that finds it unread, or kUnended after that the axis's loop has read and not ended it. It
-        /// is carried out nevertheless, and how it ended is told then, too. Time counts anew after kHalted
-        /// without a take().
+        /// The next outcome. For an axis that does not answer a stop gets an outcome after a timeout: kUnread
+        /// after the first take() that finds it unread, or kUnended after the axis's loop has read it without
+        /// ending it. It is carried out nevertheless, and its real outcome follows. The timeouts start again
+        /// after kHalted without a take().
         std::optional<Completion> take(base::Instant now);
-        /// The same of outcomes that the loop has told.
+        /// The same, without timeouts: only outcomes reported by the loop.
         std::optional<Completion> take();
         std::uint64_t number() const { return number_; }
 

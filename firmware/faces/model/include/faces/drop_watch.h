@@ -8,8 +8,8 @@
 
 namespace nplc::faces {
 
-/// Knows an axis's values and recipes, to tell what of them another table did not take: the gateway's log has
-/// no room for names. For the axis's loop.
+/// Keeps an axis's values and recipes, to report by name which of them another table did not accept: the
+/// gateway's log has no names. For the axis's loop.
 class DropWatch {
   public:
     /// To be called after every poll; it reads them only where something was stored or a table was exchanged.

@@ -14,7 +14,7 @@ class Simulation {
         bool is_paused = false;
         double speed = 1;            ///< virtual seconds per real second
         std::uint32_t recorded = 0;  ///< lines
-        bool is_cut = false;         ///< the line to the motor, whoever cut it
+        bool is_cut = false;         ///< the line to the motor is cut, by any client or scenario
         bool is_blocked = false;     ///< the shaft
         bool operator==(const State&) const = default;
     };

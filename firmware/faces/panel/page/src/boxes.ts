@@ -1,4 +1,4 @@
-// What is drawn as one box: a step with the copies of it that the compiler made for what it remembers.
+// Steps that are drawn as one box: a step with the copies that the compiler made of it.
 import type { Step, Term, Way } from "./table";
 
 export interface NamedStep {
@@ -23,7 +23,7 @@ export class Boxes {
       const own = byNumber.get(step);
       const name = copied(own);
       if (step === 0 || name === undefined) return step;
-      // `copy_of` of a later CALL's copy names the step of the first CALL.
+      // `copy_of` is the step copied from; in a step of a later CALL, which is no copy, it is the step of the first CALL.
       const original = named.find((one) => one.name === name)?.number ?? own?.copy_of;
       return original !== undefined && present.has(original) && copied(byNumber.get(original)) === undefined ? original : step;
     };

@@ -30,7 +30,7 @@ export class StepDrawing {
   private lastBox = -1;
   private axis: Axis | null = null;
   private showsErrors = false;
-  private shows: "readable" | "all" | "chosen" = "readable"; // chosen: somebody has moved or zoomed
+  private shows: "readable" | "all" | "chosen" = "readable"; // chosen: the user has moved or zoomed
   private drag: { x: number; y: number; view: View; moved: boolean } | null = null;
   private pinch = new Map<number, { x: number; y: number }>();
 

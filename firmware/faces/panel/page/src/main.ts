@@ -79,7 +79,7 @@ function hello(message: Message): void {
   setClass(document.body, "simulated", simulated);
   const infos = message.axes as AxisInfo[];
   const wanted = current?.info.name ?? new URLSearchParams(location.search).get("axis");
-  axes.clear(); // what was between is not known: no path leads across it
+  axes.clear(); // the steps in between are unknown: no path across the gap
   for (const info of infos) axes.set(info.name, new Axis(info));
   const choice = byId<HTMLSelectElement>("axis");
   choice.replaceChildren(...infos.map((info) => h("option", { value: info.name }, info.name)));

@@ -4,7 +4,7 @@ import type { Axis } from "./state";
 import type { Answer, Wire } from "./wire";
 
 const kTokenKey = "nanoplc-token";
-const kStopPatience = 1500; // ms: the program answers a stop within 1 s, whatever comes of it
+const kStopPatience = 1500; // ms: the program answers a stop within 1 s, with any outcome
 // Of an answer: firmware/gateway/REGISTERS.md.
 const kNoTable = 6;
 const kNotRunning = 17;

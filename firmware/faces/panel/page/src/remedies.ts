@@ -1,4 +1,5 @@
-// Remedies come from the gateway for every face, with the tools' commands. Here the page's own buttons do the same.
+// The gateway's remedies name commands of the tools, for all faces. This replaces them by the buttons of the
+// page.
 
 type Rule = [RegExp, string];
 

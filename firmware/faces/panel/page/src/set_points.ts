@@ -1,5 +1,5 @@
-// Values that may be changed while the machine lives: shown to all, changed together as one, and kept as recipes.
-// Range and unit are the gateway's to check; what it refuses is said here with the value's limits.
+// Values that may be changed while the machine is in use: visible to all clients, changed together, and saved
+// as recipes. The gateway checks range and unit; a refusal is shown here with the limits of the value.
 import { byId, h, saveFile, setClass, setText } from "./dom";
 import type { Operation } from "./operate";
 import type { Axis, Recipe, SetPoint } from "./state";

@@ -1,4 +1,4 @@
-// What the page knows of each axis.
+// The state of each axis, as received.
 import { Boxes, type NamedStep } from "./boxes";
 import { decodeTable, keyOf, stepsOf, type Step, type Term } from "./table";
 import type { Cause } from "./why";
@@ -88,7 +88,7 @@ export interface AxisInfo {
 export interface SetPoint {
   name: string;
   unit: string; // "" without one
-  value: number; // wanted, and stored
+  value: number; // the wanted value, which is stored
   in_force: number;
   lowest: number;
   highest: number;

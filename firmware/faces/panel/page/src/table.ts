@@ -1,4 +1,4 @@
-// The sequence table (001 §6.1): terms of 8 bytes, decoded as firmware/sequencer does.
+// The sequence table (001 §6.1): terms of 8 bytes, decoded as the folder sequencer does.
 
 export const kNoSwitch = 0x3e;
 export const kEnd = 0x3f;
@@ -101,7 +101,7 @@ export interface Way {
   from: number;
   to: number;
   terms: Term[];
-  isError: boolean; // all of its terms want ERROR
+  isError: boolean; // all of its terms require ERROR
 }
 
 export interface Step {

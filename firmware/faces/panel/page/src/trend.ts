@@ -21,7 +21,7 @@ type Samples = (number | null | undefined)[];
 
 interface Series {
   time: number[]; // seconds of the gateway's uptime
-  position: Samples; // null: a gap; undefined: nothing new, the line goes on
+  position: Samples; // null: a gap; undefined: no new value, the line continues
   speed: Samples;
   torque: Samples;
   step: number[];
@@ -127,7 +127,8 @@ export class Trend {
       this.data.set(axis.info.name, (series = empty())); // the gateway has started anew
     }
     if (last !== undefined && seconds - last > kPause) this.put(series, (last + seconds) / 2, axis.step, null, null, null);
-    // The motor is asked for one value after the other: only what has come since the sample before is one.
+    // The motor's values are read one after the other: a value counts only if it was read since the previous
+    // sample.
     const value = (name: string): number | null | undefined => {
       const found = axis.m.get(name);
       if (!found?.good || (axis.r.LINK ?? 0) !== kLinkUp) return null;

@@ -1,4 +1,4 @@
-// Another table into the gateway: compared with what runs, and asked about before anything is sent.
+// Upload of another table: compared with the active one, and confirmed by the user before anything is sent.
 import { Boxes } from "./boxes";
 import { termInWords } from "./describe";
 import { byId, h, saveFile, setClass, setText } from "./dom";
@@ -21,14 +21,14 @@ interface Difference {
 
 const kMostSize = 48 * 1024;
 const kTermBytes = 8;
-const kSmall = /^MAC(50|95|140|141)$/; // their registers are the same: the gateway does not tell them apart
+const kSmall = /^MAC(50|95|140|141)$/; // their registers are the same, so the gateway cannot distinguish them
 
 function readNames(name: string, text: string): Symbols {
   try {
     const names = JSON.parse(text) as { format?: unknown } | null;
     if (names?.format === "nanoplc-symbols") return names as Symbols;
   } catch {
-    // told below, as any other file that is none
+    // reported below, as any other invalid file
   }
   throw new Error(`${name} holds no names of a program: take the F.sym that seqc build wrote beside the table`);
 }

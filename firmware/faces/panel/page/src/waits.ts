@@ -146,7 +146,7 @@ export class Waits {
     if (!step) return "";
     const all = waysOut(step, axis.program!.boxes);
     const isWithin = (way: Way): boolean => axis.program!.boxes.isWithin(way);
-    // What leads out of the box; a copy that nothing leaves waits for what leads to another copy.
+    // The branches that lead out of the box; for a copy without any, those that lead to another copy.
     const ways = [all.filter((way) => !way.isError && !isWithin(way)), all.filter(isWithin), all].find((list) => list.length) ?? [];
     return ways.map((way) => `for ${axis.stepName(way.to)}: ${this.missing(axis, way.terms, axis.key) || "nothing, it is true now"}`).join("; ");
   }

@@ -1,4 +1,4 @@
-// Why does it not move? What the gateway finds, as every other face tells it, and what only the page knows beside it.
+// Why the motor does not move: the gateway's findings, as in all faces, and those that only the page has.
 import { inPanel } from "./remedies";
 import type { Axis } from "./state";
 import type { Waits } from "./waits";

@@ -1,4 +1,4 @@
-// The connection to the program: PROTOCOL.md. It comes back by itself, without a storm.
+// The connection to the program: PROTOCOL.md. Reconnects with increasing intervals.
 
 export interface Message {
   t: string;

@@ -1,4 +1,4 @@
-// What numbers mean, in words. Codes: firmware/gateway/REGISTERS.md; commands: 001 §5.2.1.4.
+// Numbers in words. Codes: firmware/gateway/REGISTERS.md; commands: 001 §5.2.1.4.
 
 export const kRunStates = ["stopped", "waits for the motor", "running", "about to be held", "held"];
 export const kLinks = ["down", "starting", "not acknowledged", "up"];

@@ -14,7 +14,7 @@ namespace nplc::faces {
 
 /// A client's side: at the machine, or in the plant's control system.
 enum class Side : std::uint8_t {
-    person,  ///< a person's port or a panel
+    person,  ///< a local user port or a panel
     plant,   ///< a PLC or a SCADA system
 };
 
@@ -41,7 +41,7 @@ class Seat {
     enum class Verdict : std::uint8_t {
         granted,
         taken,       ///< another client has it
-        local,       ///< only persons may operate now
+        local,       ///< only local clients may operate now
         remote,      ///< only the plant may
         taken_over,  ///< another client has it, which took it over from this one
     };
@@ -55,7 +55,7 @@ class Seat {
 
     /// Whether this client may operate now. If granted it has the seat, and `silence` restarts.
     Verdict take(const Sitter& client, base::Instant now);
-    /// The same, whoever has it.
+    /// The same, for any holder.
     Verdict take_over(const Sitter& client, base::Instant now);
     /// The client has left.
     void leave(std::uint64_t client);

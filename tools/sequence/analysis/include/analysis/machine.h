@@ -18,8 +18,8 @@ enum class Assume : std::uint8_t {
     driver,  ///< what the gateway and a real motor can produce
 };
 
-/// Of a scan that sends, in milliseconds from its beginning: when the next one can begin, and when at the
-/// latest it ends, for it waits while the motor's queue is full.
+/// Times of a scan that sends, in milliseconds from its beginning: the earliest and latest beginning of the
+/// next scan, and its latest end, since it waits while the motor's queue is full.
 struct Delay {
     std::uint32_t least = 0;
     std::uint32_t most = 0;
@@ -50,7 +50,7 @@ struct Group {
     ImageSet images;
     Delay delay;                ///< driver only
     bool error = false;         ///< driver only: in all its images, else in none
-    bool in_pos = false;        ///< of all its images, if the machine tells motion
+    bool in_pos = false;        ///< of all its images, if the machine tracks motion
     bool disturbs = false;      ///< ERROR in all its images, if the machine times moves
     bool resets_error = false;  ///< driver only: sends "reset error"
 };

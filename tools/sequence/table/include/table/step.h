@@ -56,7 +56,7 @@ struct Step {
     std::uint8_t number = 0;
     std::size_t terms = 0;                      ///< number of the step's terms
     std::uint8_t compared = sequencer::kError;  ///< bits of HW_INP that some of them compare
-    /// In the order of the first case of each. Two may be equal whose orders stand in different terms.
+    /// In the order of the first case of each. Two may be equal if their orders are in different terms.
     std::vector<Outcome> outcomes;
     std::array<std::uint16_t, sequencer::kKeys> of_case{};
 

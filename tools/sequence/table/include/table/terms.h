@@ -7,7 +7,7 @@
 
 #include "sequencer/term.h"
 
-/// What one term says, read from its bytes.
+/// The meaning of one term, read from its bytes.
 namespace nplc::table {
 
 /// A bit of the key (step.h: HW_INP in bits 7..0, timer = 0 in bit 8, counter = 0 in bit 9), and its value.
@@ -32,7 +32,7 @@ TermFault fault_of(sequencer::TermView term);
 enum class Oddity : std::uint8_t {
     none,
     of_step_62,           ///< no step can have this number
-    level_without_care,   ///< INPUT wants a level that CARE leaves out
+    level_without_care,   ///< INPUT has a level that CARE masks
     next_is_63,           ///< a gateway refuses the table
     unused_bits,          ///< AVAILABLE bits are set
     command_not_sent,     ///< a command with FAST_DIS = 1
