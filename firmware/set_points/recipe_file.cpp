@@ -24,14 +24,28 @@ class Gatherer {
         return false;
     }
 
+    /// Case does not count in names of recipes, so another spelling would replace the first one.
     bool begin(std::size_t line, const std::string& name) {
         if (const std::string problem = recipe_name_problem(name); !problem.empty())
             return fail(line, problem);
-        const auto same = [&](const Recipe& recipe) { return recipe.name == name; };
+        const auto same = [&](const Recipe& recipe) { return is_same_recipe(recipe.name, name); };
         current_ = static_cast<std::size_t>(
             std::find_if(reading_.recipes.begin(), reading_.recipes.end(), same) - reading_.recipes.begin());
-        if (current_ == reading_.recipes.size()) reading_.recipes.push_back({0, name, {}});
-        return true;
+        if (current_ == reading_.recipes.size()) {
+            reading_.recipes.push_back({0, name, {}});
+            lines_.push_back(line);
+        }
+        const std::string& first = reading_.recipes[current_].name;
+        return first == name || fail(line, fmt::format("'{}' is the recipe '{}' of line {}; case counts not",
+                                                       name, first, lines_[current_]));
+    }
+
+    /// As begin(); a recipe that stands twice is an error.
+    bool begin_another(std::size_t line, const std::string& name) {
+        const std::size_t before = reading_.recipes.size();
+        if (!begin(line, name)) return false;
+        return reading_.recipes.size() > before ||
+               fail(line, fmt::format("recipe '{}' stands in line {} already", name, lines_[current_]));
     }
 
     bool add(std::size_t line, const std::string& name, const std::string& text) {
@@ -49,11 +63,11 @@ class Gatherer {
     }
 
     RecipeReading take() {
-        for (const Recipe& recipe : reading_.recipes) {
-            if (recipe.values.empty() && reading_.error.empty())
-                reading_.error = fmt::format("recipe '{}' has no values", recipe.name);
+        for (std::size_t i = 0; i < reading_.recipes.size(); ++i) {
+            const Recipe& recipe = reading_.recipes[i];
+            if (recipe.values.empty()) fail(lines_[i], fmt::format("recipe '{}' has no values", recipe.name));
         }
-        if (reading_.recipes.empty() && reading_.error.empty()) reading_.error = "there is no recipe in it";
+        if (reading_.recipes.empty()) fail(1, "there is no recipe in it");
         if (!reading_.error.empty()) reading_.recipes.clear();
         return std::move(reading_);
     }
@@ -61,6 +75,7 @@ class Gatherer {
   private:
     const Record& record_;
     RecipeReading reading_;
+    std::vector<std::size_t> lines_;  ///< where each begins
     std::size_t current_ = 0;
 };
 
@@ -156,13 +171,27 @@ bool is_text(const Toml* value) {
     return value != nullptr && value->kind == Toml::Kind::text;
 }
 
+/// What is none of `known` would be passed over in silence.
+bool has_only(const Toml& table, const std::vector<std::string_view>& known, Gatherer& gatherer) {
+    for (const auto& [key, value] : table.entries) {
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            return gatherer.fail(
+                static_cast<std::size_t>(std::max(value.line, 1)),
+                fmt::format("'{}' is no key here; {}", key,
+                            known.size() == 1 ? "recipes are written as [[recipe]]"
+                                              : "a [[recipe]] has a name and [recipe.values]"));
+    }
+    return true;
+}
+
 bool read_recipe(const Toml& table, Gatherer& gatherer) {
+    if (!has_only(table, {"name", "values"}, gatherer)) return false;
     const Toml* name = table.find("name");
     const Toml* values = table.find("values");
     if (!is_text(name) || values == nullptr || values->kind != Toml::Kind::table)
         return gatherer.fail(static_cast<std::size_t>(table.line),
                              "a [[recipe]] needs a name and [recipe.values]");
-    if (!gatherer.begin(static_cast<std::size_t>(table.line), name->text)) return false;
+    if (!gatherer.begin_another(static_cast<std::size_t>(table.line), name->text)) return false;
     for (const auto& [key, value] : values->entries) {
         const auto at = static_cast<std::size_t>(value.line);
         const bool is_number = value.kind == Toml::Kind::integer || value.kind == Toml::Kind::real;
@@ -180,6 +209,7 @@ RecipeReading read_toml(std::string_view text, const Record& record) {
         gatherer.fail(static_cast<std::size_t>(file.line), file.error);
         return gatherer.take();
     }
+    if (!has_only(file.root, {"recipe"}, gatherer)) return gatherer.take();
     const Toml* recipes = file.root.find("recipe");
     const bool is_list = recipes != nullptr && recipes->kind == Toml::Kind::list;
     for (std::size_t i = 0; is_list && i < recipes->items.size(); ++i) {
@@ -196,7 +226,9 @@ RecipeReading read_toml(std::string_view text, const Record& record) {
 }  // namespace
 
 RecipeFormat format_of(std::string_view path) {
-    return path.ends_with(".toml") ? RecipeFormat::toml : RecipeFormat::csv;
+    constexpr std::string_view kEnd = ".toml";
+    const std::string_view end = path.substr(path.size() - std::min(path.size(), kEnd.size()));
+    return is_same_recipe(end, kEnd) ? RecipeFormat::toml : RecipeFormat::csv;
 }
 
 std::string missing_values(const Recipe& recipe, const Record& record) {
@@ -212,6 +244,7 @@ std::string missing_values(const Recipe& recipe, const Record& record) {
 std::string write_recipes(const std::vector<Recipe>& recipes, const Record& record, RecipeFormat format) {
     std::string text = format == RecipeFormat::csv ? std::string(kHeader) + "\n" : "";
     for (const Recipe& recipe : recipes) {
+        if (recipe.values.empty()) continue;
         if (format == RecipeFormat::toml)
             text += fmt::format("{}[[recipe]]\nname = {}\n[recipe.values]\n", text.empty() ? "" : "\n",
                                 toml_text(recipe.name));

@@ -16,7 +16,9 @@ std::string recipe_name_problem(std::string_view name) {
     if (name.empty() || name.size() > kLongestRecipeName)
         return fmt::format("'{}': a recipe's name has 1 to {} characters", name, kLongestRecipeName);
     const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
-    return is_plain ? "" : fmt::format("'{}': a recipe's name is plain ASCII", name);
+    if (!is_plain) return fmt::format("'{}': a recipe's name is plain ASCII", name);
+    const bool is_visible = name.front() != ' ' && name.back() != ' ';
+    return is_visible ? "" : fmt::format("'{}': a recipe's name neither begins nor ends with a blank", name);
 }
 
 const Recipe* find_recipe(const std::vector<Recipe>& recipes, std::string_view name) {

@@ -140,7 +140,8 @@ Reading read_value(const SetPoint& point, std::string_view text) {
     double number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     const std::string limits = fmt::format("{} takes {}", point.name, range_text(point));
-    if (error != std::errc{} || !std::isfinite(number))
+    const bool has_two_signs = digits.size() < text.size() && digits.starts_with('-');
+    if (error != std::errc{} || !std::isfinite(number) || has_two_signs)
         return {0, fmt::format("'{}' is no value; {}", text, limits)};
     std::string_view unit(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);

@@ -116,6 +116,8 @@ void ActionParser::recipe(Actions& list, Time after) {
         reader_.peek().text.size() > set_points::kLongestRecipeName)
         reader_.fail("the recipe's name in quotes, up to 15 characters, such as recipe load \"Short\"");
     const std::string name(reader_.next().text);
+    if (std::string problem = set_points::recipe_name_problem(name); !problem.empty())
+        reader_.refuse(problem);
     const bool is_known = std::any_of(recipes_.begin(), recipes_.end(), [&](const std::string& recipe) {
         return set_points::is_same_recipe(recipe, name);
     });

@@ -36,10 +36,6 @@ CLASSES = {
     "firmware/faces/modbus/rtu_server.cpp:RtuServer::Loop": Large(
         "times of the line, the request and its answer, each of which decides what becomes of the other two", members=22
     ),
-    "firmware/faces/mqtt/client.cpp:Client::Loop": Large(
-        "one connection's life; mosquitto's callbacks have this one object, and every member ends with the connection",
-        members=22,
-    ),
     "firmware/gateway/include/gateway/gateway.h:Gateway": Large(
         "the face of scan, hold, forces, permission and log to the user port, mostly one line each; the state decides over all"
         + IMAGE,

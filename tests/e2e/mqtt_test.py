@@ -154,6 +154,9 @@ class Simulated(program_case.ProgramCase, Case):
             host.tell("DCMD", "sim", values({"Set Points/Length": wrong}))
             self.wait_value(host, "sim", "Command/last", lambda metric: metric.value == "Set Points/Length")
             self.wait_value(host, "sim", "Command/result", lambda metric, code=code: metric.value == code)
+        host.tell("DCMD", "sim", values({"Set Points/Pieces": 1.5}))
+        self.wait_value(host, "sim", "Command/text", lambda metric: metric.value == "1.5 is no whole number; nothing was changed")
+        self.wait_value(host, "sim", "Command/result", lambda metric: metric.value == BAD_VALUE)
         host.tell("DCMD", "sim", values({"Set Points/Length": 60.0}), retain=True)
         host.tell("DCMD", "sim", values({"Set Points/Length": 60.0}, timestamp=int(time.time() * 1000) - 60_000))
         self.wait_value(host, "sim", "Command/result", lambda metric: metric.value == TOO_LATE)
@@ -212,6 +215,19 @@ class Simulated(program_case.ProgramCase, Case):
         again, place = host.wait(lambda m: m.kind == "NBIRTH", after=place + 1)
         self.assertEqual((again.seq, again.named("bdSeq").value), (0, birth.named("bdSeq").value))
         host.wait(lambda m: m.kind == "DBIRTH" and m.seq == 1, after=place)
+
+
+    def test_two_nodes_of_one_name_say_so_and_try_ever_more_seldom(self):
+        host, first = self.serve()
+        host.wait(lambda m: m.kind == "DBIRTH")
+        # The broker throws out whom it has under the name.
+        self.launch(SIM, "run", SHUTTLE, "--realtime", "--quiet", "--mqtt", f"127.0.0.1:{self.broker.port}")
+        told = []
+        for line in first.stderr:
+            told.append(line)
+            if "is there another client nanoplc-nanoplc-sim?" in line:
+                break
+        self.assertEqual(sum("mqtt: connected" in line for line in told), 3, told)
 
 
 class Served(service_case.ServiceCase, Case):

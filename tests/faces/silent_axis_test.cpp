@@ -162,7 +162,7 @@ TEST_F(SilentAxis, APlcIsAnswered) {
     ASSERT_EQ(answer->bytes().size(), 2U);
     EXPECT_EQ(answer->bytes()[0], 0x85);
     EXPECT_EQ(answer->bytes()[1], 4);
-    EXPECT_EQ(units[0]->result, 43);
+    EXPECT_EQ(units[0]->handshake("PLC").result, 43);
     run(50ms);
     EXPECT_FALSE(runs());
 }

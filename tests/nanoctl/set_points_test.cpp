@@ -275,12 +275,29 @@ TEST(RecipeFile, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(csv("A,Dwell,500,"), "2: the file ends without the unit of Dwell: is it whole?");
     EXPECT_EQ(csv("A,Dwell,500,\n"), "");
     EXPECT_EQ(csv("A,Dwell,500,ms"), "");
-    EXPECT_EQ(csv(""), "there is no recipe in it");
+    EXPECT_EQ(csv(""), "1: there is no recipe in it");
+    EXPECT_EQ(csv("A,Dwell,5,ms\nB,Dwell,5,ms\na,Width,5,mm\n"),
+              "4: 'a' is the recipe 'A' of line 2; case counts not");
+    EXPECT_EQ(csv("  ,Dwell,5,ms\n"), "2: '  ': a recipe's name neither begins nor ends with a blank");
+    EXPECT_EQ(csv("A ,Dwell,5,ms\n"), "2: 'A ': a recipe's name neither begins nor ends with a blank");
+    EXPECT_EQ(csv("A B,Dwell,+5,ms\n"), "");
+    EXPECT_EQ(csv("A,Length,+-5,counts\n").substr(0, 23), "2: '+-5 counts' is no v");
     const auto toml = [](const std::string& text) {
         return set_points::read_recipes(text, SetPointBench::record(), RecipeFormat::toml).error;
     };
     EXPECT_EQ(toml("[[recipe]]\nname = \"A\"\n[recipe.values]\nDwell = \"6 s\"\n"),
               "4: 6 s is out of range; Dwell takes 1 ms to 5000 ms");
+    const std::string one = "[[recipe]]\nname = \"A\"\n[recipe.values]\nDwell = 6\n";
+    EXPECT_EQ(toml(one), "");
+    EXPECT_EQ(toml(one + "[[recipe]]\nname = \"A\"\n[recipe.values]\nLength = 6\n"),
+              "5: recipe 'A' stands in line 1 already");
+    EXPECT_EQ(toml(one + "[[recipe]]\nname = \"a\"\n[recipe.values]\nLength = 6\n"),
+              "5: 'a' is the recipe 'A' of line 1; case counts not");
+    EXPECT_EQ(toml("[[recipe]]\nname = \"A\"\n[recipe.values]\n"), "1: recipe 'A' has no values");
+    EXPECT_EQ(toml(one + "[[recipes]]\nname = \"B\"\n"),
+              "5: 'recipes' is no key here; recipes are written as [[recipe]]");
+    EXPECT_EQ(toml("[[recipe]]\nname = \"A\"\nDwell = 6\n[recipe.values]\nDwell = 6\n"),
+              "3: 'Dwell' is no key here; a [[recipe]] has a name and [recipe.values]");
     EXPECT_NE(toml("[[recipe"), "");
     EXPECT_NE(toml("[[recipe]]\nname = 5\n"), "");
 }
@@ -319,6 +336,20 @@ TEST(SetPointValues, StepsBesideAreThoseThatWereWritten) {
     EXPECT_EQ(record->values[0], length);
     EXPECT_EQ(set_points::read_value(record->values[0], "120.05mm").error,
               "120.05mm is between two steps, 120 or 120.1; Length takes 10 mm to 200 mm in steps of 0.1 mm");
+}
+
+TEST(RecipeFile, TheNameTellsTheForm) {
+    for (const char* toml : {"r.toml", "R.TOML", ".toml"})
+        EXPECT_EQ(set_points::format_of(toml), RecipeFormat::toml) << toml;
+    for (const char* csv : {"r.csv", "toml", "", "r.toml.csv", "-"})
+        EXPECT_EQ(set_points::format_of(csv), RecipeFormat::csv) << csv;
+}
+
+/// Saved with another table.
+TEST(RecipeFile, ARecipeWithoutValuesIsNotInIt) {
+    for (const RecipeFormat format : {RecipeFormat::csv, RecipeFormat::toml})
+        EXPECT_EQ(set_points::write_recipes({{0, "Old", {}}, kRecipes[1]}, SetPointBench::record(), format),
+                  set_points::write_recipes({kRecipes[1]}, SetPointBench::record(), format));
 }
 
 TEST(RecipeFile, SaysWhatARecipeLacks) {

@@ -470,6 +470,8 @@ TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
               "1:14: the line ends too early; write a comparison, such as Length = 0\n");
     EXPECT_EQ(wrong("at 1 s Length := 90 mm"),
               "1:8: Length is a set-point; write set Length := and its value\n");
+    EXPECT_EQ(wrong("at 1 s recipe save \"Long \""),
+              "1:20: 'Long ': a recipe's name neither begins nor ends with a blank\n");
 }
 
 TEST(ScenarioParser, StepNumbersAreThoseOfTheTable) {

@@ -83,7 +83,6 @@ class RtuServer::Loop {
     std::optional<base::Instant> asked_{};  ///< an image was requested
     std::optional<RtuFrame> frame_;         ///< the answer
     std::size_t sent_ = 0;                  ///< sent bytes of it
-    bool is_stale_ = false;                 ///< the master no longer waits for it
     std::atomic<bool> ends_{false};
 };
 
@@ -125,9 +124,7 @@ void RtuServer::Loop::run() {
         line_->look();
         read(now);
         if (request_size_ != 0) serve(now);
-        if (const auto ended = session_->take(now)) {
-            if (!std::exchange(is_stale_, false)) answer(*ended);
-        }
+        if (const auto ended = session_->take(now)) answer(*ended);
         send(now);
         set_.watch_masters(now);
     }
@@ -161,10 +158,7 @@ void RtuServer::Loop::note_frame(base::Instant now) {
     if (reader_.unit() < options_.unit || index >= set_.units().size()) return;
     frame_.reset();
     sent_ = 0;
-    if (session_->is_waiting()) {
-        is_stale_ = true;
-        return;
-    }
+    if (session_->is_waiting()) static_cast<void>(session_->put_aside());
     unit_ = reader_.unit();
     request_arrived_ = arrived_;
     request_size_ = reader_.pdu().size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "registers/layout.h"
 
@@ -81,6 +82,21 @@ bool Session::is_old(const Look& look) {
     return look.image.number == 0 || look.now - look.image.taken > faces::AxisModel::kOld;
 }
 
+Handshake& Unit::handshake(const std::string& address) {
+    auto found = std::find_if(handshakes_.begin(), handshakes_.end(),
+                              [&](const Handshake& one) { return one.address == address; });
+    if (found == handshakes_.end() && handshakes_.size() < kMostAddresses) {
+        handshakes_.push_back({.address = address});
+        found = handshakes_.end() - 1;
+    } else if (found == handshakes_.end()) {
+        found = std::min_element(handshakes_.begin(), handshakes_.end(),
+                                 [](const auto& a, const auto& b) { return a.used < b.used; });
+        *found = Handshake{.address = address};
+    }
+    found->used = ++uses_;
+    return *found;
+}
+
 std::optional<Command> Unit::due(base::Instant now) {
     if (master == 0 || settings.on_silence == Silence::nothing || now - heard <= settings.silence)
         return std::nullopt;
@@ -89,7 +105,12 @@ std::optional<Command> Unit::due(base::Instant now) {
 }
 
 Session::Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell)
-    : units_(units), name_(std::move(name)), bell_(bell), clients_(units.size()), staged_(units.size()) {}
+    : units_(units),
+      name_(std::move(name)),
+      bell_(bell),
+      clients_(units.size()),
+      staged_(units.size()),
+      written_(units.size()) {}
 
 /// If the session is the master, it counts as silent at once.
 Session::~Session() {
@@ -146,7 +167,7 @@ Answer Session::read(const Look& look, const Request& request) {
 
 Exception Session::put(const Look& look, Space space, std::uint16_t address, Answer& answer) const {
     if (space == Space::coil) {
-        answer.put_bit((look.unit.coils >> (address & 7U) & 1) != 0);
+        answer.put_bit((handshake_of(look.unit).coils >> (address & 7U) & 1) != 0);
         return address < kCoils ? Exception::none : Exception::illegal_address;
     }
     if (space == Space::holding_register) {
@@ -225,11 +246,11 @@ std::optional<std::uint16_t> Session::own_value(const Look& look, std::uint16_t 
             return static_cast<std::uint16_t>(
                 std::min<std::int64_t>(look.image[gw::LOG_COUNT] - look.unit.acknowledged, kMost));
         case kDoneNumber:
-            return look.unit.done_number;
+            return handshake_of(look.unit).done_number;
         case kResult:
-            return look.unit.result;
+            return handshake_of(look.unit).result;
         case kResultDetail:
-            return look.unit.detail;
+            return handshake_of(look.unit).detail;
         case kImageAge:
             return static_cast<std::uint16_t>(
                 std::clamp<std::int64_t>((look.now - look.image.taken).count() / 1000, 0, kMost));
@@ -247,15 +268,15 @@ Word Session::holding_word(const Look& look, std::uint16_t address) const {
     };
     switch (address) {
         case kCommand:
-            return known(look.unit.command);
+            return known(handshake_of(look.unit).command);
         case kCommandNumber:
-            return known(look.unit.number);
+            return known(handshake_of(look.unit).number);
         case kForceInputs:
             return of_axis(known(look.image[gw::FORCE_IN]));
         case kForceOutputs:
             return of_axis(known(look.image[gw::FORCE_OUT]));
         case kRecipe:
-            return known(look.unit.recipe);
+            return known(handshake_of(look.unit).recipe);
         case kSetPointsWritten:
             return known(staged_[look.index].written());
         default:
@@ -270,15 +291,18 @@ std::optional<Answer> Session::write_coils(const Look& look, const Request& requ
         return Answer::refusal(request.function, Exception::illegal_address);
     std::vector<Command> stops;
     std::vector<Command> others;
-    Unit& unit = look.unit;
+    Handshake& shake = handshake_of(look.unit);
+    std::uint8_t& own = written_[look.index].coils;
     for (unsigned i = 0; i < request.count; ++i) {
         const unsigned coil = request.address + i;
         const auto bit = static_cast<std::uint8_t>(1U << coil);
-        const bool rises = request.bit(i) && (unit.coils & bit) == 0 && (unit.coils_were_off & bit) != 0;
-        if (!request.bit(i)) unit.coils_were_off |= bit;
-        unit.coils = static_cast<std::uint8_t>(request.bit(i) ? unit.coils | bit : unit.coils & ~bit);
+        const bool rises =
+            request.bit(i) && ((shake.coils | own) & bit) == 0 && (shake.coils_were_off & bit) != 0;
+        if (!request.bit(i)) shake.coils_were_off |= bit;
+        for (std::uint8_t* coils : {&shake.coils, &own})
+            *coils = static_cast<std::uint8_t>(request.bit(i) ? *coils | bit : *coils & ~bit);
         if (coil == kAcknowledge) {
-            if (request.bit(i)) unit.acknowledged = look.image[gw::LOG_COUNT];
+            if (request.bit(i)) look.unit.acknowledged = look.image[gw::LOG_COUNT];
             continue;
         }
         const Command command = coil == kResetError ? Command::reset_error(look.arrived)
@@ -312,60 +336,61 @@ std::optional<Answer> Session::write_holding(const Look& look, const Request& re
 
 /// The command of the handshake registers, if any.
 std::optional<Command> Session::handshake(const Look& look, const Request& request) {
-    Unit& unit = look.unit;
+    Handshake& shake = handshake_of(look.unit);
     const auto written = [&request](unsigned address) -> std::optional<std::uint16_t> {
         if (request.address > address || request.address + request.count <= address) return std::nullopt;
         return request.word(address - request.address);
     };
-    if (const auto command = written(kCommand)) unit.command = *command;
+    if (const auto command = written(kCommand)) shake.command = *command;
     const std::optional<std::uint16_t> number = written(kCommandNumber);
-    const bool is_new = number && *number != unit.number;
-    if (number) unit.number = *number;
-    const Command command = Command::of(static_cast<gw::Command>(unit.command), look.arrived);
+    std::optional<std::uint16_t>& own = written_[look.index].number;
+    const bool is_new = number && *number != shake.number && number != own;
+    if (number) own = shake.number = *number;
+    const Command command = Command::of(static_cast<gw::Command>(shake.command), look.arrived);
     if (number == std::uint16_t{0}) {
-        unit.is_armed = true;
-        unit.done_number = 0;
+        shake.is_armed = true;
+        shake.done_number = 0;
     }
-    if (written(kCommand) && is_stop(unit.command)) return command;
+    if (written(kCommand) && is_stop(shake.command)) return command;
     if (!is_new || *number == 0) return std::nullopt;
-    return unit.is_armed ? ordered(look) : end_handshake(unit, Result::too_late);
+    return shake.is_armed ? ordered(look, shake) : end_handshake(shake, Result::too_late);
 }
 
-std::optional<Command> Session::end_handshake(Unit& unit, Result result) {
-    unit.result = static_cast<std::uint16_t>(result);
-    unit.detail = 0;
-    unit.done_number = unit.number;
+std::optional<Command> Session::end_handshake(Handshake& shake, Result result) {
+    shake.result = static_cast<std::uint16_t>(result);
+    shake.detail = 0;
+    shake.done_number = shake.number;
     return std::nullopt;
 }
 
 /// The axis command for the handshake; empty: it has already ended.
-std::optional<Command> Session::ordered(const Look& look) {
-    Unit& unit = look.unit;
+std::optional<Command> Session::ordered(const Look& look, Handshake& shake) {
     StagedSetPoints& staged = staged_[look.index];
-    switch (unit.command) {
+    switch (shake.command) {
         case kAcknowledgeEvents:
-            unit.acknowledged = look.image[gw::LOG_COUNT];
-            return end_handshake(unit, Result::done);
+            look.unit.acknowledged = look.image[gw::LOG_COUNT];
+            return end_handshake(shake, Result::done);
         case kResetMotorError:
             return Command::reset_error(look.arrived);
         case kTakeSetPoints: {
-            if (staged.written() == 0) return end_handshake(unit, Result::bad_value);
-            if (!staged.are_of(*look.book)) return end_handshake(unit, Result::other_table);
+            if (staged.written() == 0) return end_handshake(shake, Result::bad_value);
+            if (!staged.are_of(*look.book)) return end_handshake(shake, Result::other_table);
             const auto request = staged.request(set_points_of(look));
             if (!request.empty()) return Command::set_points(request, gw::Origin::modbus, look.arrived);
             staged.forget();
-            return end_handshake(unit, Result::done);
+            return end_handshake(shake, Result::done);
         }
         case kLoadRecipe:
-            if (look.book->find_recipe(unit.recipe) == nullptr) return end_handshake(unit, Result::no_recipe);
+            if (look.book->find_recipe(shake.recipe) == nullptr)
+                return end_handshake(shake, Result::no_recipe);
             return Command::set_points(
                 set_points::encode_request(look.book->record, gw::SetPointRequest::load_recipe, {},
-                                           {.number = static_cast<std::uint8_t>(unit.recipe)}),
+                                           {.number = static_cast<std::uint8_t>(shake.recipe)}),
                 gw::Origin::modbus, look.arrived);
         default:
-            if (is_for_plant(unit.command))
-                return Command::of(static_cast<gw::Command>(unit.command), look.arrived);
-            return end_handshake(unit, Result::bad_value);
+            if (is_for_plant(shake.command))
+                return Command::of(static_cast<gw::Command>(shake.command), look.arrived);
+            return end_handshake(shake, Result::bad_value);
     }
 }
 
@@ -374,7 +399,7 @@ void Session::stage(const Look& look, const Request& request) {
     StagedSetPoints& staged = staged_[look.index];
     for (unsigned i = 0; i < request.count; ++i) {
         const unsigned address = request.address + i;
-        if (address == kRecipe) look.unit.recipe = request.word(i);
+        if (address == kRecipe) handshake_of(look.unit).recipe = request.word(i);
         if (address == kSetPointsWritten && request.word(i) == 0) staged.forget();
         if (address < kSetPointsNew || (address - kSetPointsNew) % 2 != 0 || i + 1 >= request.count) continue;
         const auto value = static_cast<std::int32_t>(long_in(request, i, look.unit.settings.low_word_first));
@@ -423,8 +448,7 @@ std::optional<Answer> Session::begin(const Look& look, const Request& request,
     if (!client) return Answer::refusal(request.function, Exception::busy);
     if (operates && !look.unit.settings.writes) {
         if (is_handshake) {
-            look.unit.result = static_cast<std::uint16_t>(Result::not_allowed);
-            look.unit.done_number = look.unit.number;
+            end_handshake(handshake_of(look.unit), Result::not_allowed);
             return Answer::echo(std::span(pdu_).first(size_));
         }
         return Answer::refusal(request.function, Exception::device_failure);
@@ -433,8 +457,15 @@ std::optional<Answer> Session::begin(const Look& look, const Request& request,
         look.unit.master = number_;
         look.unit.heard = look.now;
     }
-    waiting_ = Waiting{.request = request, .index = look.index, .is_handshake = is_handshake};
-    waiting_->takes_set_points = is_handshake && look.unit.command == kTakeSetPoints;
+    waiting_ =
+        Waiting{.request = request, .index = look.index, .is_handshake = is_handshake, .begun = look.now};
+    if (is_handshake) {
+        const Handshake& shake = handshake_of(look.unit);
+        waiting_->number = shake.number;
+        waiting_->has_number = request.address + request.count > kCommandNumber;
+        waiting_->takes_set_points = shake.command == kTakeSetPoints;
+        if (waiting_->has_number) aside_.reset();
+    }
     for (const Command& command : commands) {
         if (const auto id = client->submit(command)) waiting_->ids.push_back(*id);
     }
@@ -442,35 +473,90 @@ std::optional<Answer> Session::begin(const Look& look, const Request& request,
     return std::nullopt;
 }
 
-std::optional<Answer> Session::take(base::Instant now) {
-    if (!waiting_) return std::nullopt;
-    auto& client = clients_[waiting_->index];
-    while (const auto ended = client->take(now)) {
-        const auto place = std::find(waiting_->ids.begin(), waiting_->ids.end(), ended->id);
-        if (place != waiting_->ids.end()) waiting_->ended.push_back(*ended);
+bool Session::asks_stop(std::span<const std::uint8_t> pdu) {
+    const auto [request, exception] = decode(pdu);
+    if (exception != Exception::none || !request.writes) return false;
+    if (request.space == Space::holding_register)
+        return request.address == kCommand && is_stop(request.word(0));
+    if (request.space != Space::coil || request.address + request.count > kCoils) return false;
+    for (unsigned i = 0; i < request.count; ++i) {
+        const unsigned coil = request.address + i;
+        if (request.bit(i) && (coil == kStop || coil == kSafe || coil == kHold)) return true;
     }
-    if (waiting_->ended.size() < waiting_->ids.size()) return std::nullopt;
+    return false;
+}
+
+void Session::take_ended(base::Instant now) {
+    for (std::size_t i = 0; i < clients_.size(); ++i) {
+        while (clients_[i]) {
+            const auto ended = clients_[i]->take(now);
+            if (!ended) break;
+            for (auto* one : {&waiting_, &aside_}) {
+                if (!*one || (*one)->index != i) continue;
+                const auto& ids = (*one)->ids;
+                if (std::find(ids.begin(), ids.end(), ended->id) != ids.end())
+                    (*one)->ended.push_back(*ended);
+            }
+        }
+    }
+}
+
+std::optional<Answer> Session::take(base::Instant now) {
+    if (!waiting_ && !aside_) return std::nullopt;
+    take_ended(now);
+    if (aside_ && aside_->ended.size() == aside_->ids.size()) {
+        enter(*aside_);
+        aside_.reset();
+    }
+    if (!waiting_) return std::nullopt;
+    if (waiting_->ended.size() < waiting_->ids.size()) {
+        const bool is_long = waiting_->is_handshake && now - waiting_->begun >= kLongestAnswer;
+        return is_long && !is_stop(handshake_of(*units_[waiting_->index]).command)
+                   ? std::optional(put_aside())
+                   : std::nullopt;
+    }
     const Answer answer = finished();
     waiting_.reset();
     return answer;
+}
+
+Answer Session::put_aside() {
+    Waiting waiting = *std::exchange(waiting_, std::nullopt);
+    if (!waiting.is_handshake && !waiting.request.writes)
+        return Answer::refusal(waiting.request.function, Exception::target_failed);
+    if (!waiting.is_handshake) {
+        handshake_of(*units_[waiting.index]).result = static_cast<std::uint16_t>(Result::too_late);
+        return Answer::refusal(waiting.request.function, Exception::device_failure);
+    }
+    if (waiting.has_number) aside_ = std::move(waiting);
+    return Answer::echo(std::span(pdu_).first(size_));
+}
+
+void Session::enter(const Waiting& waiting) {
+    Handshake& shake = handshake_of(*units_[waiting.index]);
+    const Completion first =
+        waiting.ended.empty() ? Completion{.result = Result::busy} : waiting.ended.front();
+    if (waiting.takes_set_points && first.result == Result::done) staged_[waiting.index].forget();
+    if (waiting.has_number && shake.number != waiting.number) return;
+    if (!waiting.has_number && aside_ && first.result == Result::done) return;
+    shake.result = static_cast<std::uint16_t>(first.result);
+    shake.detail = first.detail;
+    shake.done_number = shake.number;
 }
 
 Answer Session::finished() {
     const Request& request = waiting_->request;
     Unit& unit = *units_[waiting_->index];
     if (waiting_->is_handshake) {
-        const Completion& first = waiting_->ended.front();
-        unit.result = static_cast<std::uint16_t>(first.result);
-        unit.detail = first.detail;
-        unit.done_number = unit.number;
-        if (waiting_->takes_set_points && first.result == Result::done) staged_[waiting_->index].forget();
+        enter(*waiting_);
         return Answer::echo(std::span(pdu_).first(size_));
     }
     if (!waiting_->is_whole) return Answer::refusal(request.function, Exception::busy);
     for (const Completion& ended : waiting_->ended) {
         if (const Exception exception = exception_of(ended); exception != Exception::none) {
-            unit.result = static_cast<std::uint16_t>(ended.result);
-            unit.detail = ended.detail;
+            Handshake& shake = handshake_of(unit);
+            shake.result = static_cast<std::uint16_t>(ended.result);
+            shake.detail = ended.detail;
             return Answer::refusal(request.function, exception);
         }
     }

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <span>
 
 namespace nplc::modbus {
 namespace {
@@ -63,6 +65,7 @@ void TcpClient::serve(short events, base::Instant now) {
         silent_at_ = now;
     if ((events & (POLLERR | POLLHUP | POLLNVAL)) != 0) is_gone_ = true;
     if (const auto answer = session_.take(now)) put(*answer);
+    if (session_.is_waiting() && has_stop_behind()) put(session_.put_aside());
     if (!out_.empty()) send();
     int served = 0;
     while (served < kMostAtOnce && out_.empty() && !is_gone_ && serve_one(now)) {
@@ -71,6 +74,25 @@ void TcpClient::serve(short events, base::Instant now) {
     }
     has_more_ = served == kMostAtOnce;
     if (!session_.is_waiting() && now - began_ > kPatience && (have_ != 0 || !out_.empty())) is_gone_ = true;
+}
+
+/// Whether a stop has arrived behind the request in progress. What is not read yet stays unread, so that the
+/// age of what stands before it is known.
+bool TcpClient::has_stop_behind() const {
+    std::array<std::uint8_t, 8 * kMostFrame> bytes{};
+    std::copy_n(in_.begin(), have_, bytes.begin());
+    const ssize_t more = ::recv(descriptor_, &bytes[have_], bytes.size() - have_, MSG_PEEK);
+    const std::span all =
+        std::span(bytes).first(have_ + static_cast<std::size_t>(std::max<ssize_t>(more, 0)));
+    for (std::size_t at = 0; all.size() - at > kHead;) {
+        const std::size_t length = std::size_t{all[at + 4]} << 8 | all[at + 5];
+        const std::size_t end = at + kHead - 1 + length;
+        if (all[at + 2] != 0 || all[at + 3] != 0 || length < 2 || length > kMostPdu + 1 || end > all.size())
+            return false;
+        if (Session::asks_stop(all.subspan(at + kHead, length - 1))) return true;
+        at = end;
+    }
+    return false;
 }
 
 /// For all axes, since a message may be for any of them.

@@ -35,6 +35,7 @@ class TcpClient {
 
     void read(base::Instant now);
     bool serve_one(base::Instant now);
+    bool has_stop_behind() const;
     bool waits_for_image(base::Instant now);
     void put(const Answer& answer);
     void send();

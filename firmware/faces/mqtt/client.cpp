@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "attempts.h"
 #include "broker/session.h"
 #include "edge_node.h"
 #include "hal_linux/quiet_thread.h"
@@ -21,8 +22,6 @@ namespace {
 
 constexpr int kLookMilliseconds = 50;
 constexpr int kKeepAliveSeconds = 10;
-constexpr base::Milliseconds kFirstPause{1'000};
-constexpr base::Milliseconds kLongestPause{30'000};
 constexpr base::Milliseconds kBetweenQuestions{2'000};
 /// Connection timeout.
 constexpr base::Milliseconds kPatience{10'000};
@@ -86,9 +85,7 @@ class Client::Loop {
     base::Instant looked_{};  ///< start of the last pass
     bool is_late_ = false;    ///< messages may have been delayed
     bool has_heard_ = false;  ///< a message was received in this pass
-    base::Instant next_try_{};
-    base::Milliseconds pause_ = kFirstPause;
-    std::string told_;  ///< last reported connection error
+    Attempts attempts_{fmt::format("nanoplc-{}-{}", options_.group, options_.node)};
     bool is_subscribed_ = false;
     int question_ = 0;  ///< message id whose acknowledgement confirms earlier messages; 0: none
     base::Instant asked_{};
@@ -117,8 +114,7 @@ void Client::Loop::connect() {
     is_subscribed_ = false;
     question_ = 0;
     order_questions_.clear();
-    const std::string name = fmt::format("nanoplc-{}-{}", options_.group, options_.node);
-    session_ = broker::new_session(name, this);
+    session_ = broker::new_session(attempts_.name(), this);
     if (!session_) return lose("no memory");
     if (const std::string error = set_up(); !error.empty()) return lose(error);
     const int code =
@@ -135,12 +131,11 @@ void Client::Loop::lose(const std::string& why) {
     session_.reset();
     node_.disconnected();
     orders_.disconnected();
-    next_try_ = clock_.now() + pause_;
-    pause_ = std::min(pause_ * 2, kLongestPause);
-    const std::string text =
-        fmt::format("no connection to {}:{}: {}; tries again", options_.host, options_.port, why);
-    if (text != told_) tell(true, text);
-    told_ = text;
+    is_subscribed_ = false;
+    const std::string text = attempts_.lost(
+        clock_.now(),
+        fmt::format("no connection to {}:{}: {}; tries again", options_.host, options_.port, why));
+    if (!text.empty()) tell(true, text);
 }
 
 /// Orderly disconnect with an explicit death message: the broker then does not publish the will.
@@ -158,7 +153,7 @@ void Client::Loop::leave() {
 void Client::Loop::run() {
     looked_ = clock_.now();
     while (!ends_) {
-        if (!session_ && clock_.now() >= next_try_) connect();
+        if (!session_ && attempts_.is_due(clock_.now())) connect();
         if (session_) {
             look();
         } else {
@@ -173,7 +168,7 @@ void Client::Loop::run() {
         tell(false, fmt::format("the primary host {} is offline; values are kept until it is back",
                                 options_.primary_host));
         leave();
-        next_try_ = clock_.now() + kFirstPause;
+        attempts_.left(clock_.now());
     }
     leave();
 }
@@ -189,6 +184,8 @@ void Client::Loop::look() {
         is_late_ = false;
     if (code != MOSQ_ERR_SUCCESS) return lose(reason_of(code));
     if (!is_subscribed_ && now - begun_ > kPatience) return lose("the broker does not answer");
+    if (attempts_.lasts(now))
+        tell(false, fmt::format("the connection to {}:{} lasts again", options_.host, options_.port));
     ask();
 }
 
@@ -268,10 +265,9 @@ void Client::Loop::on_subscribe(mosquitto*, void* self, int id, int count, const
     loop.question_ = 0;
     if (loop.is_subscribed_) return loop.node_.store().confirm();
     loop.is_subscribed_ = true;
-    loop.pause_ = kFirstPause;
-    loop.told_.clear();
     loop.node_.connected();
     loop.orders_.connected();
+    if (!loop.attempts_.made(loop.clock_.now())) return;
     loop.tell(false, fmt::format("connected to {}:{}, as node {} of group {}", loop.options_.host,
                                  loop.options_.port, loop.options_.node, loop.options_.group));
 }

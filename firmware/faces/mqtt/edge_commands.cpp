@@ -31,7 +31,7 @@ std::optional<double> number_in(const Metric& metric) {
 }  // namespace
 
 void EdgeNode::receive(const Incoming& message, const Moment& moment) {
-    if (message.topic.find("STATE/") != std::string_view::npos) return take_host_state(message.payload);
+    if (is_host_state(message.topic)) return take_host_state(message.payload);
     const auto payload = decode(message.payload);
     if (!payload || !is_born_) return;
     if (message.topic == topic("NCMD")) {
@@ -67,13 +67,15 @@ void EdgeNode::submit(Device& device, const std::string& what, const faces::Comm
     device.sets_values = command.reg == gw::SET_POINT_WRITE;
 }
 
-/// Rejects retained commands, those that may have waited in a queue, and repeated ones.
-bool EdgeNode::is_too_late(Device& device, const Given& given) {
+/// Rejects retained commands, those that may have waited in a queue, and repeated ones; a stop may be older
+/// than the last command, which another host with another clock may have sent.
+bool EdgeNode::is_too_late(Device& device, const Given& given, bool stops) {
     const auto limit = static_cast<std::uint64_t>(options_.command_age.count());
     const std::uint64_t apart =
         given.timestamp > given.now ? given.timestamp - given.now : given.now - given.timestamp;
-    if (given.message.is_retained || apart > limit || given.timestamp <= device.last_command) return true;
-    device.last_command = given.timestamp;
+    if (given.message.is_retained || apart > limit) return true;
+    if (!stops && given.timestamp <= device.last_command) return true;
+    device.last_command = std::max(device.last_command, given.timestamp);
     return false;
 }
 
@@ -89,12 +91,24 @@ void EdgeNode::take_device_command(std::size_t index, const Payload& payload, co
             command = &metric;
     }
     const Metric* first = values.empty() ? command : values.front();
-    if (first == nullptr) return;
+    if (first == nullptr) return refuse_what_is_none(index, payload);
     const Given given{message, first->timestamp.value_or(payload.timestamp.value_or(0)), milliseconds};
     if (values.empty()) return take_command(index, *command, given);
     if (command == nullptr) return take_set_points(index, values, given);
     refuse(devices_[index], "Set Points", Result::bad_value,
            "a command and values in one message; nothing was done");
+}
+
+/// Something else than a false, with which hosts take a command back.
+void EdgeNode::refuse_what_is_none(std::size_t index, const Payload& payload) {
+    for (const Metric& metric : payload.metrics) {
+        if (std::holds_alternative<bool>(metric.value)) continue;
+        const std::string name = metric.name.empty() ? fmt::format("alias {}", metric.alias.value_or(0))
+                                                     : metric.name.substr(0, kLongestName);
+        return refuse(
+            devices_[index], name, Result::bad_value,
+            "neither a command with the value true, nor a set-point of the table; nothing was done");
+    }
 }
 
 std::optional<gw::Command> EdgeNode::allowed_command(std::size_t index, const Metric& metric) const {
@@ -120,10 +134,12 @@ void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given
     Device& device = devices_[index];
     const std::string name = metric.name.substr(0, kLongestName);
     const auto allowed = allowed_command(index, metric);
-    if (!allowed || !device.client) return refuse(device, name, Result::not_allowed);
-    if (is_too_late(device, given))
+    if (!allowed || !device.client)
+        return refuse(device, name, Result::not_allowed, "it is none of the `commands` that [mqtt] allows");
+    const auto order = faces::Command::of(*allowed, given.message.arrived);
+    if (is_too_late(device, given, order.is_stop()))
         return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late);
-    submit(device, std::string(gw::name_of(*allowed)), faces::Command::of(*allowed, given.message.arrived));
+    submit(device, std::string(gw::name_of(*allowed)), order);
 }
 
 std::optional<std::size_t> EdgeNode::set_point_of(std::size_t index, const Metric& metric) const {
@@ -155,7 +171,8 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
         const std::string name = place ? fmt::format("{}{}", kSetPoints, record.values[*place].name)
                                        : metric->name.substr(0, kLongestName);
         if (is_of_recipe(index, *metric)) {
-            if (!options_.recipes || !device.client) return refuse(device, name, Result::not_allowed);
+            if (!options_.recipes || !device.client)
+                return refuse(device, name, Result::not_allowed, "`recipes` of [mqtt] does not allow it");
             const bool is_whole = number && *number >= 1 && *number <= 255 && std::trunc(*number) == *number;
             if (is_whole) recipe = device.book->find_recipe(static_cast<std::size_t>(*number));
             if (recipe == nullptr) return refuse(device, name, Result::no_recipe);
@@ -163,12 +180,17 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
         }
         if (!place) return refuse(device, name, Result::no_register, "the table has no such set-point");
         if (!options_.may_set(record.values[*place].name) || !device.client)
-            return refuse(device, name, Result::not_allowed);
+            return refuse(device, name, Result::not_allowed,
+                          "it is none of the `set_points` that [mqtt] allows");
         const set_points::SetPoint& point = record.values[*place];
         const auto steps = number ? set_points::steps_of(point, *number) : std::nullopt;
         const auto before = std::find_if(values.begin(), values.end(),
                                          [&](const auto& value) { return value.index == *place; });
         if (!number || before != values.end()) return refuse(device, name, Result::bad_value);
+        if (point.kind == set_points::ValueKind::counter && std::trunc(*number) != *number &&
+            std::isfinite(*number))
+            return refuse(device, name, Result::bad_value,
+                          fmt::format("{} is no whole number; nothing was changed", *number));
         if (!steps)
             return refuse(
                 device, name, Result::out_of_range,
@@ -183,7 +205,7 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
     if (recipe != nullptr && metrics.size() != 1)
         return refuse(device, what, Result::bad_value,
                       "a recipe and values in one message; nothing was done");
-    if (is_too_late(device, given)) return refuse(device, what, Result::too_late);
+    if (is_too_late(device, given, false)) return refuse(device, what, Result::too_late);
     const auto request = recipe == nullptr
                              ? set_points::encode_request(record, gw::SetPointRequest::change, values)
                              : set_points::encode_request(record, gw::SetPointRequest::load_recipe, {},

@@ -35,6 +35,8 @@ constexpr std::uint64_t kResultAlias = 901;
 constexpr std::uint64_t kTextAlias = 902;
 constexpr std::size_t kMostOfMessage = 100;
 constexpr int kMostMessages = 50;
+/// However often hosts ask: a birth has all values.
+constexpr base::Milliseconds kBetweenBirths{1'000};
 /// Sparkplug 3.0 does not define values; these are OPC's, which hosts use.
 constexpr std::int32_t kGood = 192;
 constexpr std::int32_t kStale = 500;
@@ -106,6 +108,14 @@ std::vector<std::string> EdgeNode::subscriptions() const {
         topics.push_back("STATE/" + options_.primary_host);  // of hosts before Sparkplug 3.0
     }
     return topics;
+}
+
+/// A group or node may be called STATE, too.
+bool EdgeNode::is_host_state(std::string_view topic) const {
+    constexpr std::string_view kState = "STATE/";
+    if (topic.starts_with(kNamespace)) topic.remove_prefix(kNamespace.size());
+    return !options_.primary_host.empty() && topic.starts_with(kState) &&
+           topic.substr(kState.size()) == options_.primary_host;
 }
 
 void EdgeNode::disconnected() {
@@ -304,7 +314,10 @@ void EdgeNode::tick(const Moment& moment, const Publish& publish) {
     }
     for (Device& device : devices_) device.axis->want(moment.now);
     if (!may_publish() || wants_to_leave_) return;
-    if (!is_born_ || wants_rebirth_) bear_node(publish, moment.milliseconds);
+    if (!is_born_ || (wants_rebirth_ && moment.now >= next_birth_)) {
+        bear_node(publish, moment.milliseconds);
+        next_birth_ = moment.now + kBetweenBirths;
+    }
     for (std::size_t i = 0; is_born_ && i < devices_.size(); ++i) {
         Device& device = devices_[i];
         const faces::AxisImage image = device.axis->image(moment.now);

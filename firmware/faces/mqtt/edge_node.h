@@ -100,6 +100,7 @@ class EdgeNode {
     Metric metric_of(const Record& record) const;
     void follow_set_points(Device& device);
     bool is_outdated(const Record& record) const;
+    bool is_host_state(std::string_view topic) const;
     void take_host_state(std::string_view payload);
     void take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
                              std::uint64_t milliseconds);
@@ -109,7 +110,8 @@ class EdgeNode {
     void take_set_points(std::size_t index, const std::vector<const Metric*>& metrics, const Given& given);
     std::optional<std::size_t> set_point_of(std::size_t index, const Metric& metric) const;
     bool is_of_recipe(std::size_t index, const Metric& metric) const;
-    bool is_too_late(Device& device, const Given& given);
+    bool is_too_late(Device& device, const Given& given, bool stops);
+    void refuse_what_is_none(std::size_t index, const Payload& payload);
     void submit(Device& device, const std::string& what, const faces::Command& command);
     void refuse(Device& device, const std::string& what, faces::Result result, const std::string& text = {});
 
@@ -127,6 +129,7 @@ class EdgeNode {
     std::uint64_t born_at_ = 0;  ///< older records are historical
     std::uint64_t told_dropped_ = 0;
     base::Instant next_look_{};
+    base::Instant next_birth_{};  ///< of those that hosts ask for
 };
 
 }  // namespace nplc::mqtt

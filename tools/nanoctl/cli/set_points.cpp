@@ -193,8 +193,15 @@ void export_to(Session& session, const ExportOptions& options) {
         set_points::write_recipes(recipes, kept.record, set_points::format_of(options.file));
     if (const std::string problem = whole_files::write_files({{options.file, text}}); !problem.empty())
         throw UserError(problem);
-    session.tell(fmt::format("{}: {} recipe{}", options.file, recipes.size(), recipes.size() == 1 ? "" : "s"),
-                 {{"file", options.file}, {"recipes", recipes.size()}});
+    const auto count = std::count_if(recipes.begin(), recipes.end(),
+                                     [](const Recipe& recipe) { return !recipe.values.empty(); });
+    std::string told = fmt::format("{}: {} recipe{}", options.file, count, count == 1 ? "" : "s");
+    for (const Recipe& recipe : recipes) {
+        const std::string lack =
+            lack_text(recipe, kept.record, "what it has of other tables is not in the file");
+        if (!lack.empty()) told += fmt::format("\n  {}{}", recipe.name, lack);
+    }
+    session.tell(told, {{"file", options.file}, {"recipes", count}});
 }
 
 void store_all(Session& session, const KeptSetPoints& kept, const std::string& file,

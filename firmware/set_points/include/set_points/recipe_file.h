@@ -19,6 +19,7 @@ RecipeFormat format_of(std::string_view path);
 /// their defaults.
 std::string missing_values(const Recipe& recipe, const Record& record);
 
+/// Without recipes that have no value for the record.
 std::string write_recipes(const std::vector<Recipe>& recipes, const Record& record, RecipeFormat format);
 
 struct RecipeReading {

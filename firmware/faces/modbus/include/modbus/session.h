@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "faces/axis_model.h"
@@ -22,16 +23,11 @@ struct Settings {
     base::Milliseconds silence{5'000};
 };
 
-/// An axis as a slave: the state shared by its clients. Used by the server's thread.
-class Unit {
-  public:
-    Unit(faces::AxisModel& axis, const Settings& common) : model(axis), settings(common) {}
-
-    faces::AxisModel& model;
-    const Settings& settings;
-
-    // Handshake. Until command_number was written as 0 since the start, nothing is carried out: a master that
-    // writes its block cyclically must not start a machine after a restart of the gateway.
+/// What the clients of one address have written, and how their last command ended.
+struct Handshake {
+    std::string address;
+    // Until command_number was written as 0 since the start, nothing is carried out: a master that writes its
+    // block cyclically must not start a machine after a restart of the gateway.
     bool is_armed = false;
     std::uint16_t command = 0;
     std::uint16_t number = 0;
@@ -42,13 +38,34 @@ class Unit {
 
     std::uint8_t coils = 0;           ///< as written last
     std::uint8_t coils_were_off = 0;  ///< written as 0 since the start
-    std::uint32_t acknowledged = 0;   ///< of event_count
+    std::uint64_t used = 0;
+};
+
+/// An axis as a slave: the state shared by its clients. Used by the server's thread.
+class Unit {
+  public:
+    static constexpr std::size_t kMostAddresses = 64;
+
+    Unit(faces::AxisModel& axis, const Settings& common) : model(axis), settings(common) {}
+
+    faces::AxisModel& model;
+    const Settings& settings;
+
+    /// Of more than kMostAddresses the one that was used the longest ago begins anew, and is not armed. Valid
+    /// until the next call.
+    Handshake& handshake(const std::string& address);
+
+    std::uint32_t acknowledged = 0;  ///< of event_count
 
     std::uint64_t master = 0;  ///< the last operating session; 0: none
     base::Instant heard{};     ///< last request from it
 
     /// The command for on_silence that is due; once.
     std::optional<faces::Command> due(base::Instant now);
+
+  private:
+    std::vector<Handshake> handshakes_;
+    std::uint64_t uses_ = 0;
 };
 
 /// Time of a request, and the limit of its age.
@@ -62,6 +79,10 @@ struct Moment {
 /// one is handled.
 class Session {
   public:
+    /// A command that takes longer is answered, and done_number says when it has ended.
+    static constexpr base::Milliseconds kLongestAnswer{1'000};
+
+    /// Clients with the same `name` share a handshake.
     Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell);
     ~Session();
     Session(const Session&) = delete;
@@ -72,13 +93,20 @@ class Session {
     std::uint64_t number() const { return number_; }
     bool is_waiting() const { return waiting_.has_value(); }
     std::optional<Answer> take(base::Instant now);
+    /// Whether a request is a write of stop, safe or hold, for which no other one may wait.
+    static bool asks_stop(std::span<const std::uint8_t> pdu);
+    /// Answers the request in progress for the next one; its commands go on.
+    Answer put_aside();
 
   private:
     struct Waiting {
         Request request{};
         std::size_t index = 0;
         bool is_handshake = false;
+        bool has_number = false;   ///< of a handshake; false: a stop without one
+        std::uint16_t number = 0;  ///< command_number
         bool takes_set_points = false;
+        base::Instant begun{};
         bool is_whole = false;  ///< all of its commands were accepted
         std::vector<std::uint32_t> ids{};
         std::vector<faces::Completion> ended{};
@@ -94,11 +122,18 @@ class Session {
         base::Instant arrived;
     };
 
+    /// What this client itself has written, so that repeating it is nothing new whatever others write.
+    struct Written {
+        std::optional<std::uint16_t> number{};
+        std::uint8_t coils = 0;
+    };
+
     static SetPointLook set_points_of(const Look& look);
     /// The axis's data are stale.
     static bool is_old(const Look& look);
 
     Unit* find(std::uint8_t unit);
+    Handshake& handshake_of(Unit& unit) const { return unit.handshake(name_); }
     Answer read(const Look& look, const Request& request);
     Exception put(const Look& look, Space space, std::uint16_t address, Answer& answer) const;
     static Word why_word(const Look& look, std::uint16_t address);
@@ -111,11 +146,14 @@ class Session {
     std::optional<Answer> write_holding(const Look& look, const Request& request);
     void stage(const Look& look, const Request& request);
     std::optional<faces::Command> handshake(const Look& look, const Request& request);
-    std::optional<faces::Command> ordered(const Look& look);
-    std::optional<faces::Command> end_handshake(Unit& unit, faces::Result result);
+    std::optional<faces::Command> ordered(const Look& look, Handshake& shake);
+    static std::optional<faces::Command> end_handshake(Handshake& shake, faces::Result result);
     std::optional<Answer> use_window(const Look& look, const Request& request);
     std::optional<Answer> begin(const Look& look, const Request& request,
                                 const std::vector<faces::Command>& commands, bool is_handshake);
+    void take_ended(base::Instant now);
+    /// Enters how a handshake ended, unless a newer command has begun.
+    void enter(const Waiting& waiting);
     Answer finished();
     Answer window_answer(const Unit& unit) const;
 
@@ -125,7 +163,9 @@ class Session {
     std::uint64_t number_ = faces::Seat::new_number();
     std::vector<std::unique_ptr<faces::CommandDesk::Client>> clients_;  ///< for each unit; null: not yet
     std::vector<StagedSetPoints> staged_;                               ///< for each unit
+    std::vector<Written> written_;                                      ///< for each unit
     std::optional<Waiting> waiting_;
+    std::optional<Waiting> aside_;              ///< a handshake whose request was answered before its end
     std::array<std::uint8_t, kMostPdu> pdu_{};  ///< the request in progress
     std::size_t size_ = 0;
 };
