@@ -47,7 +47,22 @@ class Story(Case):
         self.assertIn("INIT(Travel)", story)
         self.assertNotIn("429496", story)
 
+    def test_orders_are_in_the_units_of_the_program(self):
+        self.assertIn("Travel := 600 mm/s", self.verify("elevator.seq"))
+        self.write("counts.seq", "PROGRAM P\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; END_VAR\n"
+                   "VAR_MOTOR Far AT P1 := 5000; Near AT INPOSWIN := 20; Fast AT V1 := 500 rpm; END_VAR\n"
+                   "POWER_UP INIT(Fast); NEXT := S; END_POWER_UP\nSTEP S: OWN ERROR; ENTRY POSITION(Far); IF Go THEN NEXT := T; END_IF END_STEP\n"
+                   "STEP T: OWN ERROR; END_STEP\nPROPERTY No: NEVER STEP = T;\nEND_PROGRAM\n")
+        for of in ("counts.seq", "counts.bin"):
+            self.run_it(SEQC, "build", "counts.seq", "-o", "counts.bin", "--quiet")
+            arguments = ("--property", "t.prop") if of.endswith("bin") else ()
+            self.write("t.prop", "PROPERTY No: NEVER STEP = T;")
+            story = self.verify(of, *arguments)
+            self.assertIn("Far := 5000 counts; Near := 20 counts; Fast := 500 rpm", story)
+
     def test_a_fraction_is_told_as_one(self):
+        self.assertIn("Station := 4468 counts", self.verify("camera.seq"))
+        self.write("camera.seq", self.read("camera.seq").replace(":= 4468 counts", ":= 32.725 deg"))
         self.assertIn("Station := 32.725 deg", self.verify("camera.seq"))
 
     def test_a_bare_table_has_register_names_and_signed_values(self):

@@ -294,6 +294,19 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
                 help);
 }
 
+namespace {
+
+/// Without blanks.
+std::string spelled_unit(std::string_view written) {
+    std::string unit;
+    for (const char c : written) {
+        if (c > ' ') unit += c;
+    }
+    return same_name(unit, "count") ? "counts" : unit;
+}
+
+}  // namespace
+
 std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Register& reg,
                                           std::string_view shown_name) {
     if (!is_on_drive(reg, written.span)) return std::nullopt;
@@ -348,6 +361,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
         return std::nullopt;
     for (std::size_t i = roundings; i < result_.roundings.size(); ++i)
         result_.roundings[i].makes_good = makes_good;
+    result_.symbols.units.try_emplace(reg.number, value.is_raw ? std::string() : spelled_unit(unit));
     return bits;
 }
 
