@@ -141,6 +141,40 @@ class Scenario(Case):
                          r"it goes to Idle")
         self.assertNotIn("--plant", printed + self.read("out.scn"))
 
+    HEAD = ("PROGRAM Short\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; Part AT IN1 : BOOL; END_VAR\n"
+            "VAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n")
+
+    def test_times_of_a_few_milliseconds_are_followed_where_debouncing_lets_them(self):
+        for ms in (1, 2, 3, 4, 5):
+            self.write("short.seq", self.HEAD + "STEP Idle: OWN ERROR; IF R_TRIG(Go) THEN TIMER := T#%dms; NEXT := Wait; END_IF END_STEP\n"
+                       "STEP Wait: OWN ERROR; IF R_TRIG(Part) THEN NEXT := Got; ELSIF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n"
+                       "STEP Got: OWN ERROR; OUT Lamp; IF NOT Go THEN NEXT := Idle; END_IF END_STEP\n"
+                       "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n" % ms)
+            self.plays("short.seq", ("Dark", "out.scn"))
+
+    def test_what_is_not_followed_without_a_move_is_not_said_of_the_motor(self):
+        self.write("short.seq", self.HEAD + "STEP Idle: OWN ERROR; IF Go THEN NEXT := Wait; END_IF END_STEP\n"
+                   "STEP Wait: OWN ERROR; IF NOT Go WITHIN 1 ms THEN NEXT := Got; ELSE NEXT := Late; END_IF END_STEP\n"
+                   "STEP Got: OWN ERROR; OUT Lamp; IF Part THEN NEXT := Idle; END_IF END_STEP\n"
+                   "STEP Late: OWN ERROR; IF Part THEN NEXT := Idle; END_IF END_STEP\n"
+                   "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n")
+        printed = self.verify("short.seq", "--scenario", "out.scn")
+        self.assertRegex(printed, r"nanoplc-sim run does not come to the end of out\.scn: in step Wait the course goes to Got, and it goes to Late "
+                         r"at [0-9.]+ ms; it debounces inputs for 3 ms")
+        self.assertIn("# nanoplc-sim run does not come to the end of this course: ", self.read("out.scn"))
+        self.assertNotIn("motor cannot", printed + self.read("out.scn"))
+
+    def test_a_last_step_that_is_left_too_early(self):
+        self.write("short.seq", self.HEAD + "VAR_MOTOR Far AT P1 := 1 rev; Fast AT V1 := 600 rpm; END_VAR\nON ERROR NEXT := Fault;\n"
+                   "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\nSTEP Idle: IF Go THEN NEXT := Move; END_IF END_STEP\n"
+                   "STEP Move: ENTRY POSITION(Far); IF Part THEN TIMER := T#9ms; NEXT := Brake; END_IF END_STEP\n"
+                   "STEP Brake: OUT Lamp; IF TIMER.Q THEN STOP; NEXT := Fault; END_IF END_STEP\n"
+                   "STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(Part) THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP\n"
+                   "PROPERTY Stops: WHENEVER Part THEN NOT moving WITHIN 3 ms;\nEND_PROGRAM\n")
+        self.assertRegex(self.verify("short.seq", "--scenario", "out.scn"),
+                         r"does not come to the end of out\.scn: it goes through the steps of the course and leaves the last one, Move, at [0-9.]+ ms, "
+                         r"before the course ends")
+
     def test_a_helper_step_on_the_way(self):
         self.plays("camera.seq", ("Door_Stops_It", "out.scn"))
 
