@@ -272,7 +272,9 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
             "TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
         return;
     }
-    std::string help = suggestion(text, names);
+    std::vector<std::string_view> meant = names;
+    for (const DeclaredSetPoint& declared : set_points_) meant.push_back(declared.written->name.text);
+    std::string help = suggestion(text, meant);
     if (find_register(text) != nullptr)
         help =
             "only constants can be written; a register's value is brought in by selecting it, as in "
