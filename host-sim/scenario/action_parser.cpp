@@ -53,6 +53,7 @@ void ActionParser::action(Actions& list, Time after) {
     if (conditions_.names().motor_alone && !is_motors)
         reader_.refuse_next(
             "here is the motor alone; write what happens to it, such as motor pulses 5000 per s");
+    if (reader_.is(":=", 1)) return set_input(list, after);
     if (reader_.take("pulse")) return pulse(list, after);
     if (reader_.take("toggle"))
         return add(list, after, action::ToggleInput{conditions_.input("an input to toggle")});
@@ -60,8 +61,8 @@ void ActionParser::action(Actions& list, Time after) {
     if (reader_.take("line")) return line(list, after);
     if (reader_.take("motor")) return motor(list, after);
     if (reader_.take("gateway")) return gateway(list, after);
-    if (reader_.is("set") && !reader_.is(":=", 1)) return set_points(list, after);
-    if (reader_.is("recipe") && !reader_.is(":=", 1)) return recipe(list, after);
+    if (reader_.is("set")) return set_points(list, after);
+    if (reader_.is("recipe")) return recipe(list, after);
     if (reader_.take("seed")) return seed(list, after);
     if (reader_.take("log")) return log(list, after);
     if (reader_.take("end")) return add(list, after, action::End{});

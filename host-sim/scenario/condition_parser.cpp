@@ -94,7 +94,8 @@ Condition ConditionParser::primary() {
         reader_.want(")", ") to close the parenthesis");
         return inner;
     }
-    if (reader_.take("ordered")) return order();
+    const bool has_order = reader_.peek(1).kind == Token::Kind::text || !knows("ordered");
+    if (has_order && reader_.take("ordered")) return order();
     return comparison();
 }
 
@@ -189,19 +190,33 @@ ConditionParser::Measure ConditionParser::measure(std::string_view what, Value::
 
 bool ConditionParser::at_other_unit() const {
     const Token& next = reader_.peek();
+    if (reader_.is("%")) return true;
     return next.kind == Token::Kind::word && !knows(next.text) && !reader_.is(":=", 1) &&
            is_meant_as_unit(next.text, names_);
 }
 
-/// The word behind a number, `mm` or `mm/s`.
+/// `%peak` is two tokens.
+bool ConditionParser::has_share() const {
+    return reader_.is("%") && reader_.peek(1).kind == Token::Kind::word &&
+           reader_.peek(1).begin == reader_.peek().end;
+}
+
+/// The word behind a number, `mm`, `mm/s` or `%peak`.
 std::string ConditionParser::written_unit() const {
+    if (has_share()) return fmt::format("%{}", reader_.peek(1).text);
     const bool is_rate = reader_.is("/", 1) && reader_.peek(2).kind == Token::Kind::word;
     return is_rate ? fmt::format("{}/{}", reader_.peek().text, reader_.peek(2).text)
                    : std::string(reader_.peek().text);
 }
 
-/// `mm`, or `mm/s` with or without blanks.
+/// `mm`, `mm/s` with or without blanks, or `%peak`.
 bool ConditionParser::take_unit(std::string_view name) {
+    if (has_share()) {
+        if (!same_name(written_unit(), name)) return false;
+        reader_.next();
+        reader_.next();
+        return true;
+    }
     const auto slash = name.find('/');
     if (!reader_.is(name.substr(0, slash))) return false;
     const bool has_slash = reader_.is("/", 1);
@@ -330,12 +345,12 @@ std::optional<Value> ConditionParser::lookup(std::string_view word) const {
         return Value{.kind = Value::Kind::input, .index = *index};
     if (const auto index = numbered(word, "OUT", kOutputs))
         return Value{.kind = Value::Kind::output, .index = *index};
-    for (const auto& [name, kind] : kValues) {
-        if (same_name(name, word)) return Value{.kind = kind};
-    }
     const std::vector<set_points::SetPoint>& points = names_.set_points.values;
     for (unsigned i = 0; i < points.size(); ++i) {
         if (same_name(points[i].name, word)) return Value{.kind = Value::Kind::set_point, .index = i};
+    }
+    for (const auto& [name, kind] : kValues) {
+        if (same_name(name, word)) return Value{.kind = kind};
     }
     return std::nullopt;
 }

@@ -138,6 +138,7 @@ class ConditionParser {
     bool take_unit(std::string_view name);
     /// A word behind a number that is meant as a unit.
     bool at_other_unit() const;
+    bool has_share() const;
     std::string written_unit() const;
     [[noreturn]] void refuse_unit(double number, Value::Kind kind);
     void edge(Event& event);

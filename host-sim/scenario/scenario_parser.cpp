@@ -31,6 +31,10 @@ class LineParser {
 
   private:
     void statement() {
+        if (reader_.is(":=", 1)) return at_beginning();
+        if (reader_.is("follows", 1)) return follows();
+        if (reader_.is("appears", 1)) return comes(true);
+        if (reader_.is("disappears", 1)) return comes(false);
         if (reader_.take("at")) return at();
         if (reader_.take("every")) return every();
         if (reader_.take("when")) return when(false);
@@ -43,11 +47,10 @@ class LineParser {
             scenario_.registers.push_back(actions_.stored_register());
             return;
         }
-        if (reader_.is("follows", 1)) return follows();
-        if (reader_.is("appears", 1)) return comes(true);
-        if (reader_.is("disappears", 1)) return comes(false);
-        scenario_.at.push_back({Time{0}, actions_.actions(), line_});
+        at_beginning();
     }
+
+    void at_beginning() { scenario_.at.push_back({Time{0}, actions_.actions(), line_}); }
 
     /// motor plant "axis.toml"
     void plant() {

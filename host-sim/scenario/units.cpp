@@ -70,9 +70,16 @@ bool has_unit(const std::vector<Unit>& units, std::string_view unit) {
                        [&](const Unit& one) { return same_name(one.name, unit); });
 }
 
+/// The program's name goes before the word.
+bool is_taken(std::string_view word, const Names& names) {
+    return std::any_of(names.set_points.values.begin(), names.set_points.values.end(),
+                       [&](const set_points::SetPoint& point) { return same_name(point.name, word); });
+}
+
 std::string value_with(std::string_view unit, const Names& names) {
     for (const Value::Kind kind : {Value::Kind::p_ist, Value::Kind::v_ist, Value::Kind::torque}) {
-        if (has_unit(units_of(kind, names), unit)) return Value{.kind = kind}.name(names);
+        const std::string name = Value{.kind = kind}.name(names);
+        if (has_unit(units_of(kind, names), unit) && !is_taken(name, names)) return name;
     }
     return {};
 }

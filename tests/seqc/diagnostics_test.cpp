@@ -54,6 +54,51 @@ TEST(Diagnostics, ModeWrittenWhereTheMotorRuns) {
     EXPECT_EQ(test::codes_in_frame(compile(in_branch("INIT(V1); MODE_REG := 1;"))), "W011");
 }
 
+// GP_MODE and its like have no command of their own (001 §4.4): with a velocity selected they are in order.
+TEST(Diagnostics, ModesThatFollowTakeTheirLimitFromTheProgram) {
+    const auto of = [](const std::string& power_up, const std::string& branch) {
+        return test::codes(compile(
+            "PROGRAM P MOTOR MAC140; ON ERROR NEXT := Fault; POWER_UP " + power_up +
+            " NEXT := S; END_POWER_UP STEP S: IF R_TRIG(IN0) THEN " + branch +
+            " NEXT := Other; END_IF END_STEP STEP Other: IF R_TRIG(IN1) THEN NEXT := POWER_UP; END_IF "
+            "END_STEP "
+            "STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(IN2) THEN RESET_ERROR; NEXT := POWER_UP; END_IF "
+            "END_STEP END_PROGRAM"));
+    };
+    for (const char* mode : {"GP_MODE", "AV_MODE", "AVG_MODE", "AVZ_MODE", "VAT_MODE", "AG_MODE", "COIL_MODE",
+                             "A2POS_MODE", "APOS_MODE", "GF_MODE"}) {
+        const std::string write = "MODE_REG := " + std::string(mode) + ";";
+        EXPECT_EQ(of("INIT(V1);", write), "") << mode;
+        EXPECT_EQ(of("V_SOLL := 500 rpm;", write), "") << mode;
+        EXPECT_EQ(of("", "USE_SET(1); " + write), "") << mode;
+        EXPECT_EQ(of("", "INIT(V1); " + write), "") << mode;
+        EXPECT_EQ(of("INIT(A1, T1);", write), "W011") << mode;
+        EXPECT_EQ(of("INIT(V1);", "STOP; " + write), "W004") << mode;
+    }
+    EXPECT_EQ(of("INIT(T1);", "MODE_REG := AT_MODE;"), "");
+    EXPECT_EQ(of("T_SOLL := 300;", "MODE_REG := AT_MODE;"), "");
+    EXPECT_EQ(of("INIT(V1);", "MODE_REG := AT_MODE;"), "W011");
+    EXPECT_EQ(of("INIT(V1);", "MODE_REG := V_MODE;"), "W011");
+}
+
+// 001 §4.4.20 - §4.4.22
+TEST(Diagnostics, ModesThatTakePlacesSelectThem) {
+    const auto of = [](const std::string& registers, const std::string& mode) {
+        return test::codes(
+            compile("PROGRAM P MOTOR MAC140; VAR_MOTOR Fast AT V1 := 500 rpm; " + registers +
+                    " END_VAR POWER_UP INIT(V1); NEXT := S; END_POWER_UP STEP S: OWN ERROR; IF "
+                    "R_TRIG(IN0) THEN MODE_REG := " +
+                    mode +
+                    "; NEXT := Other; END_IF END_STEP STEP Other: OWN ERROR; IF "
+                    "R_TRIG(IN1) THEN NEXT := POWER_UP; END_IF END_STEP END_PROGRAM"));
+    };
+    EXPECT_EQ(of("Left AT P1 := 100; Right AT P4 := 600; Side AT P6 := 1; Try AT V8 := 0;", "COIL_MODE"), "");
+    EXPECT_EQ(of("Low AT P1 := 100; High AT P2 := 600;", "A2POS_MODE"), "");
+    EXPECT_EQ(of("Low AT P1 := 100; Gain AT P2 := 600; Band AT P3 := 5;", "APOS_MODE"), "");
+    EXPECT_EQ(of("Band AT P3 := 5;", "A2POS_MODE"), "W033");
+    EXPECT_EQ(of("Far AT P7 := 5;", "COIL_MODE"), "W033");
+}
+
 TEST(Diagnostics, ColumnsCountCharacters) {
     const std::string source =
         "PROGRAM P (* \xC3\xA4\xC3\xB6 *) MOTR MAC140;\nSTEP S: OWN ERROR; END_STEP END_PROGRAM\n";

@@ -243,17 +243,19 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/registers/0/number", "128", "registers[0].number: this must be a whole number, 1 to 127"},
         Bad{"/registers/0/initial", "4294967296", "registers[0].initial: this must be a whole number"},
         Bad{"/registers/0/name", "\"Lamp\"", "registers[0].name: 'Lamp' stands twice"},
+        Bad{"/units/0/number", "0", "units[0].number: this must be a whole number, 1 to 127"},
+        Bad{"/units/0/unit", "7", "units[0].unit: this must be a text"},
         Bad{"/terms/0/line", "\"x\"", "terms[0].line: this must be a whole number"},
         Bad{"/terms/0", "[1, 2]", "terms[0]: this must be an object"},
         Bad{"/terms", "[]", "terms: there must be"}));
 
-TEST(SymbolFileReading, EveryMemberButTheScaleIsNeeded) {
+TEST(SymbolFileReading, EveryMemberButScaleAndUnitsIsNeeded) {
     const Json whole = Json::parse(blink_symbols());
     for (const auto& [name, value] : whole.items()) {
         Json file = whole;
         file.erase(name);
         const std::string error = read_symbols(file.dump()).error;
-        EXPECT_EQ(error.empty(), name == "scale") << name << ": " << error;
+        EXPECT_EQ(error.empty(), name == "scale" || name == "units") << name << ": " << error;
     }
 }
 

@@ -439,6 +439,44 @@ TEST(ScenarioParser, SetPointsAreComparedInTheirUnits) {
               "Length = 90 mm, Dwell = 0.8 s");
 }
 
+// 40 %peak are 409 of 1023.
+TEST(ScenarioParser, AProgramsNameGoesBeforeAWordOfTheLanguage) {
+    Names names = names_with_set_points();
+    names.inputs = {"Line", "Motor", "Every", "Log", "Ordered", "Pulse"};
+    for (const char* name : {"Torque", "Shaft", "Running"}) {
+        set_points::SetPoint point = names.set_points.values[0];
+        point.name = name;
+        point.unit = "%peak";
+        point.steps_per_unit = 10.23;
+        point.step = 0;
+        point.lowest = 1;
+        point.highest = 1023;
+        names.set_points.values.push_back(point);
+    }
+    Snapshot snapshot;
+    snapshot.set_points = {73'728, 800, 20, 409, 409, 409};
+    for (const char* name : {"Torque", "shaft", "RUNNING"}) {
+        for (const char* rest : {" = 40 %peak", " = 41 %PEAK +- 2 %peak", " < 50", " <> 41 %peak"}) {
+            const std::string condition = std::string(name) + rest;
+            const auto parsed = parse_scenario("expect at end " + condition, "x.scn", names);
+            ASSERT_TRUE(parsed.mistakes.empty()) << condition << ": " << parsed.mistakes.front().message;
+            EXPECT_TRUE(parsed.scenario.expectations[0].condition.holds(snapshot, names)) << condition;
+        }
+    }
+    EXPECT_EQ(all_mistakes("expect Torque = 40 %", names), "1:20: \"%\" is no unit of Torque; write %peak\n");
+    EXPECT_EQ(all_mistakes("expect P_IST = 40 %", names),
+              "1:19: \"%\" is no unit of P_IST; write counts, rev or mm\n");
+    EXPECT_EQ(all_mistakes("Line := 1, Motor := 0, Pulse := 1\n"
+                           "at 1 s Log := 1 for 1 s, pulse Pulse 50 ms\n"
+                           "Every := 1\n"
+                           "Motor follows Line after 5 ms\n"
+                           "Every appears at 2 s\n"
+                           "expect Ordered and not ordered \"POSITION(P2)\"\n"
+                           "when Ordered rises toggle Line, line cut for 5 ms",
+                           names),
+              "");
+}
+
 TEST(ScenarioParser, MistakesAboutSetPointsSayWhatToWrite) {
     const Names names = names_with_set_points();
     const auto wrong = [&](const std::string& text) { return all_mistakes(text, names); };

@@ -47,7 +47,22 @@ class Story(Case):
         self.assertIn("INIT(Travel)", story)
         self.assertNotIn("429496", story)
 
+    def test_orders_are_in_the_units_of_the_program(self):
+        self.assertIn("Travel := 600 mm/s", self.verify("elevator.seq"))
+        self.write("counts.seq", "PROGRAM P\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; END_VAR\n"
+                   "VAR_MOTOR Far AT P1 := 5000; Near AT INPOSWIN := 20; Fast AT V1 := 500 rpm; END_VAR\n"
+                   "POWER_UP INIT(Fast); NEXT := S; END_POWER_UP\nSTEP S: OWN ERROR; ENTRY POSITION(Far); IF Go THEN NEXT := T; END_IF END_STEP\n"
+                   "STEP T: OWN ERROR; END_STEP\nPROPERTY No: NEVER STEP = T;\nEND_PROGRAM\n")
+        for of in ("counts.seq", "counts.bin"):
+            self.run_it(SEQC, "build", "counts.seq", "-o", "counts.bin", "--quiet")
+            arguments = ("--property", "t.prop") if of.endswith("bin") else ()
+            self.write("t.prop", "PROPERTY No: NEVER STEP = T;")
+            story = self.verify(of, *arguments)
+            self.assertIn("Far := 5000 counts; Near := 20 counts; Fast := 500 rpm", story)
+
     def test_a_fraction_is_told_as_one(self):
+        self.assertIn("Station := 4468 counts", self.verify("camera.seq"))
+        self.write("camera.seq", self.read("camera.seq").replace(":= 4468 counts", ":= 32.725 deg"))
         self.assertIn("Station := 32.725 deg", self.verify("camera.seq"))
 
     def test_a_bare_table_has_register_names_and_signed_values(self):
@@ -125,6 +140,40 @@ class Scenario(Case):
         self.assertRegex(printed, r"in step Away the course goes to There with INPOS, and the move takes more than the 20 ms of the timer: "
                          r"it goes to Idle")
         self.assertNotIn("--plant", printed + self.read("out.scn"))
+
+    HEAD = ("PROGRAM Short\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; Part AT IN1 : BOOL; END_VAR\n"
+            "VAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n")
+
+    def test_times_of_a_few_milliseconds_are_followed_where_debouncing_lets_them(self):
+        for ms in (1, 2, 3, 4, 5):
+            self.write("short.seq", self.HEAD + "STEP Idle: OWN ERROR; IF R_TRIG(Go) THEN TIMER := T#%dms; NEXT := Wait; END_IF END_STEP\n"
+                       "STEP Wait: OWN ERROR; IF R_TRIG(Part) THEN NEXT := Got; ELSIF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n"
+                       "STEP Got: OWN ERROR; OUT Lamp; IF NOT Go THEN NEXT := Idle; END_IF END_STEP\n"
+                       "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n" % ms)
+            self.plays("short.seq", ("Dark", "out.scn"))
+
+    def test_what_is_not_followed_without_a_move_is_not_said_of_the_motor(self):
+        self.write("short.seq", self.HEAD + "STEP Idle: OWN ERROR; IF Go THEN NEXT := Wait; END_IF END_STEP\n"
+                   "STEP Wait: OWN ERROR; IF NOT Go WITHIN 1 ms THEN NEXT := Got; ELSE NEXT := Late; END_IF END_STEP\n"
+                   "STEP Got: OWN ERROR; OUT Lamp; IF Part THEN NEXT := Idle; END_IF END_STEP\n"
+                   "STEP Late: OWN ERROR; IF Part THEN NEXT := Idle; END_IF END_STEP\n"
+                   "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n")
+        printed = self.verify("short.seq", "--scenario", "out.scn")
+        self.assertRegex(printed, r"nanoplc-sim run does not come to the end of out\.scn: in step Wait the course goes to Got, and it goes to Late "
+                         r"at [0-9.]+ ms; it debounces inputs for 3 ms")
+        self.assertIn("# nanoplc-sim run does not come to the end of this course: ", self.read("out.scn"))
+        self.assertNotIn("motor cannot", printed + self.read("out.scn"))
+
+    def test_a_last_step_that_is_left_too_early(self):
+        self.write("short.seq", self.HEAD + "VAR_MOTOR Far AT P1 := 1 rev; Fast AT V1 := 600 rpm; END_VAR\nON ERROR NEXT := Fault;\n"
+                   "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\nSTEP Idle: IF Go THEN NEXT := Move; END_IF END_STEP\n"
+                   "STEP Move: ENTRY POSITION(Far); IF Part THEN TIMER := T#9ms; NEXT := Brake; END_IF END_STEP\n"
+                   "STEP Brake: OUT Lamp; IF TIMER.Q THEN STOP; NEXT := Fault; END_IF END_STEP\n"
+                   "STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(Part) THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP\n"
+                   "PROPERTY Stops: WHENEVER Part THEN NOT moving WITHIN 3 ms;\nEND_PROGRAM\n")
+        self.assertRegex(self.verify("short.seq", "--scenario", "out.scn"),
+                         r"does not come to the end of out\.scn: it goes through the steps of the course and leaves the last one, Move, at [0-9.]+ ms, "
+                         r"before the course ends")
 
     def test_a_helper_step_on_the_way(self):
         self.plays("camera.seq", ("Door_Stops_It", "out.scn"))

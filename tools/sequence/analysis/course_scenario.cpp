@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "analysis/story.h"
 
@@ -32,6 +33,10 @@ class Anchors {
     explicit Anchors(const Names& names) : names_(names) { happened_[entry(0)] = 1; }
 
     const Anchor& latest() const { return latest_; }
+    /// The one so many step changes before.
+    Anchor before(std::size_t steps) const {
+        return steps > earlier_.size() ? Anchor{} : earlier_[earlier_.size() - steps];
+    }
 
     /// Before the scan's own changes of inputs are placed.
     void note_in_pos(const PlayedScan& scan, std::uint64_t time) {
@@ -44,6 +49,7 @@ class Anchors {
     void note_step(const PlayedScan& scan, std::uint64_t time) {
         const std::uint8_t next = scan.after.step;
         if (next == scan.step) return;
+        earlier_.push_back(latest_);
         if (base_of(next) != base_of(scan.step)) {
             drop(entry(base_of(next)), time);
         }
@@ -58,6 +64,7 @@ class Anchors {
     const Names& names_;
     std::map<std::string, std::uint64_t> happened_;
     Anchor latest_;
+    std::vector<Anchor> earlier_;
     bool was_in_pos_ = false;
 };
 
@@ -118,6 +125,12 @@ class Writer {
     void place(const std::string& actions) {
         if (is_first_) {
             text_ += actions + "\n";
+            return;
+        }
+        if (options_.ahead_ms != 0 && time_ - anchors_.latest().at <= kDebounce) {
+            const Anchor before = anchors_.before(options_.steps_back);
+            text_ += fmt::format("once {}{} {}\n", before.counted(),
+                                 after(time_ - before.at + options_.ahead_ms), actions);
             return;
         }
         const Anchor& anchor = anchors_.latest();

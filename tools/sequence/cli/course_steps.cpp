@@ -66,8 +66,10 @@ CourseSteps steps_in_timeline(std::string_view printed) {
         printed.remove_prefix(std::min(line.size() + 1, printed.size()));
         const std::size_t arrow = line.find(kArrow);
         if (arrow == std::string_view::npos) continue;
-        steps.push_back({std::string(first_word(line)), std::string(last_word(line.substr(0, arrow))),
-                         std::string(first_word(line.substr(arrow + kArrow.size())))});
+        steps.push_back({.time = std::string(first_word(line)),
+                         .from = std::string(last_word(line.substr(0, arrow))),
+                         .to = std::string(first_word(line.substr(arrow + kArrow.size()))),
+                         .has_in_pos = line.find(", in position") != std::string_view::npos});
     }
     return steps;
 }
@@ -78,7 +80,13 @@ Deviation where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsa
     };
     const auto [wanted, did] =
         std::mismatch(course.begin(), course.end(), rehearsal.begin(), rehearsal.end(), is_same);
-    if (wanted == course.end()) return {"it goes through the steps of the course, and not to its end"};
+    if (wanted == course.end() && did == rehearsal.end())
+        return {"it goes through the steps of the course, and not to its end"};
+    if (wanted == course.end())
+        return {fmt::format("it goes through the steps of the course and leaves the last one, {}, at {} ms, "
+                            "before the course ends",
+                            did->from, did->time),
+                did->has_in_pos};
     const std::string goes =
         did == rehearsal.end() ? "it stays there" : fmt::format("it goes to {} at {} ms", did->to, did->time);
     if (did != rehearsal.end() && did->from != wanted->from)
@@ -87,12 +95,13 @@ Deviation where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsa
     if (did != rehearsal.end() && wanted->has_in_pos && wanted->limit_ms != 0 &&
         milliseconds(did->time) - entered >= wanted->limit_ms)
         return {fmt::format(
-            "in step {} the course goes to {} with INPOS, and the move takes more than the {} ms of "
-            "the timer: {}",
-            wanted->from, wanted->to, wanted->limit_ms, goes)};
+                    "in step {} the course goes to {} with INPOS, and the move takes more than the {} ms of "
+                    "the timer: {}",
+                    wanted->from, wanted->to, wanted->limit_ms, goes),
+                true};
     const char* why = wanted->gets_in_pos ? "INPOS does not come as in the course, which" : "the course";
     return {fmt::format("in step {} {} goes to {}, and {}", wanted->from, why, wanted->to, goes),
-            wanted->has_in_pos};
+            wanted->has_in_pos || (did != rehearsal.end() && did->has_in_pos), wanted->has_in_pos};
 }
 
 }  // namespace nplc::seqc::cli

@@ -15,9 +15,9 @@ struct StepChange {
     std::string time;  ///< in milliseconds, as printed
     std::string from;
     std::string to;
-    bool gets_in_pos = false;    ///< INPOS became 1 in that step; this and what follows for courses only
-    bool has_in_pos = false;     ///< INPOS was 1 when it was left
-    std::uint16_t limit_ms = 0;  ///< of a move to a place that began with the step; 0: none
+    bool gets_in_pos = false;    ///< INPOS became 1 in that step; for courses only
+    bool has_in_pos = false;     ///< INPOS was 1 when it was left; of a rehearsal: it led out
+    std::uint16_t limit_ms = 0;  ///< of a move to a place that began with the step, for courses only; 0: none
 };
 using CourseSteps = std::vector<StepChange>;
 
@@ -27,8 +27,8 @@ CourseSteps steps_in_timeline(std::string_view printed);
 
 struct Deviation {
     std::string where;
-    bool by_motor =
-        false;  ///< INPOS comes otherwise than in the course, and no time limit is too short for it
+    bool by_motor = false;  ///< INPOS comes otherwise than in the course
+    bool is_plant = false;  ///< and no time limit is too short for it
 };
 Deviation where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsal);
 

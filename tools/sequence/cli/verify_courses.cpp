@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "analysis/course_scenario.h"
@@ -42,9 +44,9 @@ Play play_scenario(const InputFile& program, const std::string& file, const std:
     if (ran.status == 0) return {file, Played::to_the_end, {}};
     if (ran.status == 1) {
         Deviation leaves = where_it_leaves(steps, steps_in_timeline(ran.output));
-        if (leaves.by_motor && !has_plant)
+        if (leaves.is_plant && !has_plant)
             leaves.where += "; for hard stops, a load or a plant of the machine's there is --plant FILE";
-        return {file, Played::otherwise, std::move(leaves.where)};
+        return {file, Played::otherwise, std::move(leaves.where), leaves.by_motor};
     }
     return {file, Played::not_at_all,
             fmt::format("nanoplc-sim refused it: {}", ran.errors.substr(0, ran.errors.find('\n')))};
@@ -56,25 +58,45 @@ struct Rehearsed {
     std::string text;
 };
 
-/// With inputs that change before the scan that leaves a step and, if that leads elsewhere, after it.
+/// What follows behind the file's name.
+std::string cannot(const Play& play) {
+    if (play.by_motor) return fmt::format("the virtual motor cannot follow {}: {}", play.file, play.why);
+    return fmt::format(
+        "nanoplc-sim run does not come to the end of {}: {}; it debounces inputs for 3 ms and takes its own "
+        "times for scans and orders, and this course needs others to the millisecond",
+        play.file, play.why);
+}
+
+/// Inputs that change before the scan that leaves a step or after it, or soon after the event before: until
+/// one leads to the same end. What the motor does otherwise stays so.
 Rehearsed rehearsed(const verify::Result& result, const InputFile& program, const std::string& file,
                     const verify::Names& names, const std::vector<std::string>& plant) {
+    constexpr std::uint32_t kLongest = 3;  // milliseconds; from there on debouncing is over
     const CourseSteps steps = steps_of(*result.course, names);
-    verify::ScenarioOptions how{.plant = plant};
-    std::string text = verify::scenario_of(result, names, how);
-    Play play = play_scenario(program, file, text, steps, !plant.empty());
-    if (play.played != Played::otherwise) return {std::move(play), std::move(text)};
-    how.changes_late = true;
-    std::string later = verify::scenario_of(result, names, how);
-    if (later != text) {
-        Play second = play_scenario(program, file, later, steps, !plant.empty());
-        if (second.played == Played::to_the_end) return {std::move(second), std::move(later)};
+    std::vector<verify::ScenarioOptions> ways{{.plant = plant}, {.plant = plant, .changes_late = true}};
+    for (const std::uint32_t back : {1U, 2U}) {
+        for (std::uint32_t ms = 1; ms <= kLongest; ++ms)
+            ways.push_back({.plant = plant, .ahead_ms = ms, .steps_back = back});
     }
-    text = fmt::format(
-        "# The virtual motor cannot follow this course: {}.\n# With --stimulus it is written for "
-        "nanoplc-sim scan, which always follows.\n{}",
-        play.why, text);
-    return {std::move(play), std::move(text)};
+    std::optional<Rehearsed> first;
+    for (const verify::ScenarioOptions& how : ways) {
+        if (first && first->play.by_motor && how.ahead_ms != 0) break;
+        std::string text = verify::scenario_of(result, names, how);
+        if (first && text == first->text) continue;
+        Play play = play_scenario(program, file, text, steps, !plant.empty());
+        const bool is_done = play.played != Played::otherwise;
+        if (is_done && (!first || play.played == Played::to_the_end))
+            return {std::move(play), std::move(text)};
+        if (!first) first = Rehearsed{std::move(play), std::move(text)};
+    }
+    const std::string what =
+        first->play.by_motor
+            ? fmt::format("The virtual motor cannot follow this course: {}", first->play.why)
+            : fmt::format("nanoplc-sim run does not come to the end of this course: {}", first->play.why);
+    first->text =
+        fmt::format("# {}.\n# With --stimulus it is written for nanoplc-sim scan, which always follows.\n{}",
+                    what, first->text);
+    return std::move(*first);
 }
 
 /// Error if a file would overwrite an input or another output.
@@ -134,9 +156,7 @@ std::string told(const Play& play) {
         case Played::to_the_end:
             return fmt::format("nanoplc-sim run plays {} to the same end", play.file);
         case Played::otherwise:
-            return fmt::format(
-                "the virtual motor cannot follow {}: {}; play it with --stimulus and nanoplc-sim scan",
-                play.file, play.why);
+            return cannot(play) + "; play it with --stimulus and nanoplc-sim scan";
         case Played::not_at_all:
             break;
     }

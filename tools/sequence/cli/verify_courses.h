@@ -11,7 +11,7 @@ namespace nplc::seqc::cli {
 
 enum class Played {
     to_the_end,  ///< nanoplc-sim run reaches the same end
-    otherwise,   ///< it does not: the virtual motor cannot follow the course
+    otherwise,   ///< it does not
     not_at_all,  ///< there is no nanoplc-sim next to seqc or on the path, or it failed
 };
 
@@ -19,7 +19,8 @@ enum class Played {
 struct Play {
     std::string file{};
     Played played = Played::not_at_all;
-    std::string why{};  ///< reason for the last two
+    std::string why{};      ///< reason for the last two
+    bool by_motor = false;  ///< of `otherwise`: the virtual motor takes other times; else the gateway does
 };
 using Plays = std::map<std::string, Play>;  ///< by the property's name
 

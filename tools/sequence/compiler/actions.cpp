@@ -42,9 +42,32 @@ bool uses_counter(const Action& action) {
     return action.counter || action.counts();
 }
 
+/// 0, or what is rounded to it.
+std::optional<std::uint16_t> report_no_time(Span span, Report& report, TimeFor use) {
+    switch (use) {
+        case TimeFor::preset:
+            report.add("W007", span, "the timer cannot be set to 0: it becomes 1 ms", "write T#1ms");
+            break;
+        case TimeFor::limit:
+            report.add("W007", span,
+                       "a time limit of 0 is over as soon as the step is entered: it becomes 1 ms",
+                       "write how long it may take, as in WITHIN T#3s");
+            break;
+        case TimeFor::lasting:
+            report.add("W007", span, "a condition that lasts for 0 holds at once: this waits for 1 ms",
+                       "leave FOR and its time out, or write how long it lasts, as in FOR 200 ms");
+            break;
+        case TimeFor::blinking:
+            report.add("E062", span, "a lamp cannot blink with 0: this is how long it is on, and then off",
+                       "write a time, as in BLINKING T#500ms; or leave BLINKING out: then it is on");
+            return std::nullopt;
+    }
+    return std::uint16_t{1};
+}
+
 }  // namespace
 
-std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report) {
+std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report, TimeFor use) {
     double ms = value.number;
     const bool seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
@@ -61,14 +84,17 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
     }
     if (seconds) ms *= 1000;
     const double rounded = std::round(ms);
+    if (rounded < 0) {
+        report.add("E062", value.span, "a time is not negative", "write a time from 1 ms to T#65s535ms");
+        return std::nullopt;
+    }
     if (!(rounded >= 0 && rounded <= kLongest)) {
         report.add("E062", value.span, "the timer holds at most T#65s535ms",
                    "for longer times let the counter count repetitions of a shorter one");
         return std::nullopt;
     }
     if (rounded == 0) {
-        report.add("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms", "write T#1ms");
-        return std::uint16_t{1};
+        return report_no_time(value.span, report, use);
     }
     if (std::fabs(rounded - ms) > 0.01 * ms) {
         report.add("W002", value.span,
@@ -370,9 +396,9 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     for (const Selection& selection : selections) add_send(statement, table::command_byte(mode, selection));
 }
 
-std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope) {
+std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope, TimeFor use) {
     const auto worked_out = scope.worked_out(value);
-    return worked_out ? milliseconds_of(*worked_out, scope.report()) : std::nullopt;
+    return worked_out ? milliseconds_of(*worked_out, scope.report(), use) : std::nullopt;
 }
 
 std::optional<std::uint16_t> ActionBuilder::preset_of(const Statement& statement, ValueKind kind,
@@ -407,7 +433,14 @@ void ActionBuilder::add_counter(const Statement& statement) {
     const auto worked_out = scope_.worked_out(statement.value);
     if (!worked_out) return;
     const ast::Value& value = *worked_out;
-    const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
+    if (!value.unit.text.empty() || value.is_time) {
+        scope_.report().add(
+            "E063", value.span,
+            value.is_time ? "a count is no time" : fmt::format("a count has no unit: '{}'", value.unit.text),
+            "write the number alone, in CONST too");
+        return;
+    }
+    const bool plain = std::floor(value.number) == value.number;
     if (!plain || !(value.number >= 0 && value.number <= kLongest)) {
         scope_.report().add("E063", value.span, "the counter holds whole numbers 0..65535",
                             value.number < 0 ? "it counts down to 0, where COUNTER.Q is true"

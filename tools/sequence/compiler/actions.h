@@ -47,10 +47,15 @@ class ActionBuilder {
     std::optional<Span> marked_;
 };
 
+/// Where a time stands: what 0 means there differs.
+enum class TimeFor : std::uint8_t { preset, limit, lasting, blinking };
+
 /// The timer value; reports a value that the timer cannot hold.
-std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report);
+std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report,
+                                             TimeFor use = TimeFor::preset);
 /// The same for a value that must be evaluated.
-std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope);
+std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope,
+                                         TimeFor use = TimeFor::preset);
 
 /// Warns about an output that is named twice in a list.
 void warn_named_twice(const std::vector<ast::Name>& outputs, Scope& scope);

@@ -290,6 +290,7 @@ class ClaimResolver {
 
     std::string help_for_signal(std::string_view text) const {
         if (place_of(symbols_.steps, text)) return fmt::format("it is a step: write STEP = {}", text);
+        if (is_group(text)) return fmt::format("it is the name of several steps: write STEP IN {}", text);
         std::vector<std::string_view> names = {"moving", "INPOS", "ERROR", "TRUE", "FALSE"};
         for (const std::string& name : symbols_.inputs) names.push_back(name);
         for (const std::string& name : symbols_.outputs) names.push_back(name);

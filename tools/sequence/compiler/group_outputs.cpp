@@ -10,6 +10,12 @@ namespace {
 
 using Steps = std::bitset<64>;
 
+std::vector<std::string_view> names_of(const std::vector<ast::Group>& groups) {
+    std::vector<std::string_view> names;
+    for (const ast::Group& group : groups) names.push_back(group.name.text);
+    return names;
+}
+
 /// Only groups before `limit`; duplicates and missing steps are reported elsewhere.
 Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast::Program& program,
                Scope& scope) {
@@ -19,7 +25,7 @@ Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast
         while (group < limit && !same_name(program.groups[group].name.text, name.text)) ++group;
         if (group < limit) {
             steps |= steps_of(program.groups[group].steps, group, program, scope);
-        } else if (const auto number = scope.step(name)) {
+        } else if (const auto number = scope.step(name, names_of(program.groups))) {
             steps.set(*number);
         }
     }

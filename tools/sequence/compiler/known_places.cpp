@@ -117,6 +117,10 @@ class PlaceWalk {
         if (select->mode == Mode::position && !to_place) return;  // POSITION(V1) selects a velocity
         const auto place =
             to_place && !state.relative ? place_of(select->selection, send.span) : std::nullopt;
+        if (!place && select->mode == Mode::init && state.going.empty()) {
+            state.anywhere = true;  // the shaft is braked and not held
+            return;
+        }
         if (!place) return state.lose();
         if (!state.going.empty()) state.lose();  // it is sent on from somewhere on its way
         state.going = {*place};
@@ -127,6 +131,7 @@ class PlaceWalk {
         for (const Send& send : rule.action.sends) {
             const PlaceState before = state;
             apply(state, send);
+            if (waits_with_limit(rule)) judge_distance(rule, send, before.velocity);
             const std::optional<Place> to = move_of(send);
             if (!to) continue;
             // A velocity that is named behind the place counts for this move too.
@@ -266,6 +271,18 @@ class PlaceWalk {
                        fmt::format("from {} to {}", shown_register(symbols_, from.reg),
                                    shown_register(symbols_, to.reg)));
         }
+    }
+
+    /// MOVE_P7_BY_P_SOLL and its like, from wherever the axis stands.
+    void judge_distance(const Rule& rule, const Send& send, const std::vector<std::uint8_t>& velocity) {
+        const auto move = send.reg == nullptr ? table::relative_move(send.command) : std::nullopt;
+        if (!move) return;
+        const Selection reg{Group::p, move->index};
+        const auto by = place_of(reg, send.span);
+        if (!by) return;
+        const std::int64_t longest = std::max(std::abs(by->counts.low), std::abs(by->counts.high));
+        judge_time(rule, *by, least_time(longest, velocity), by->counts.is_one(),
+                   fmt::format("for {}", shown_register(symbols_, reg)));
     }
 
     void judge_time(const Rule& rule, const Place& to, const std::optional<Least>& least, bool is_one,

@@ -8,6 +8,7 @@
 #include "compiler/orders.h"
 #include "compiler/step_walk.h"
 #include "language/names.h"
+#include "registers/details.h"
 #include "symbols/commands.h"
 
 namespace nplc::seqc {
@@ -21,11 +22,14 @@ enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 
 
 /// The possible state of the motor, with the places that caused it (length 0 if none).
 struct MotorState {
-    std::uint8_t modes = 0;  ///< the possible modes; 0: no path leads here
-    Span init;               ///< the order that caused INIT
-    bool stopped = false;    ///< V_SOLL may be 0 because of a STOP
+    std::uint8_t modes = 0;     ///< the possible modes; 0: no path leads here
+    Span init;                  ///< the order that caused INIT
+    bool left_in_init = false;  ///< by the start of the gateway or an order, and not by an error alone
+    bool stopped = false;       ///< V_SOLL may be 0 because of a STOP
     Span stop;
-    bool homing = false;  ///< it may be homing, or in STARTMODE after it (001 §4.4.13 - §4.4.15)
+    bool has_speed = false;   ///< V_SOLL certainly got a value from the program
+    bool has_torque = false;  ///< T_SOLL, likewise
+    bool homing = false;      ///< it may be homing, or in STARTMODE after it (001 §4.4.13 - §4.4.15)
     Span home;
     bool ends_in_position = false;  ///< STARTMODE is certainly one in which IN_POS is set
     Span start_mode;                ///< the place that set STARTMODE to another one
@@ -48,6 +52,31 @@ bool ends_homing(const Send& send) {
     return select_command(send.command).has_value();
 }
 
+bool gives_torque(const Send& send) {
+    if (send.reg != nullptr)
+        return send.reg->number == registers::T_SOLL || send.reg->number == registers::T_REG_P;
+    const auto select = select_command(send.command);
+    return table::set_used(send.command).has_value() || (select && select->selection.group == Group::t);
+}
+
+/// What moves the motor in a mode, besides what an order said.
+enum class Mover : std::uint8_t {
+    speed,          ///< V_SOLL
+    place,          ///< P_SOLL
+    within_speed,   ///< pulses or volts, no faster than V_SOLL
+    within_torque,  ///< volts, or the test itself, no stronger than T_SOLL
+    by_itself,
+};
+
+Mover mover_of(std::uint32_t mode) {
+    constexpr std::array<std::uint32_t, 10> kFollowing = {3, 5, 6, 16, 17, 18, 19, 20, 21, 24};
+    if (mode == 1) return Mover::speed;
+    if (mode == 2) return Mover::place;
+    if (mode == 4 || mode == 9) return Mover::within_torque;
+    const bool follows = std::find(kFollowing.begin(), kFollowing.end(), mode) != kFollowing.end();
+    return follows ? Mover::within_speed : Mover::by_itself;
+}
+
 std::uint8_t modes_after(OrderKind kind, const Send& send) {
     if (kind == OrderKind::init) return kInit;
     if (kind == OrderKind::place || kind == OrderKind::hold) return kPosition;
@@ -68,9 +97,13 @@ bool MotorState::join(const MotorState& other) {
     if (ends_in_position) start_mode = other.start_mode;
     modes |= other.modes;
     stopped = stopped || other.stopped;
+    left_in_init = left_in_init || other.left_in_init;
+    has_speed = has_speed && other.has_speed;
+    has_torque = has_torque && other.has_torque;
     homing = homing || other.homing;
     ends_in_position = ends_in_position && other.ends_in_position;
-    return modes != before.modes || stopped != before.stopped || homing != before.homing ||
+    return modes != before.modes || stopped != before.stopped || left_in_init != before.left_in_init ||
+           has_speed != before.has_speed || has_torque != before.has_torque || homing != before.homing ||
            ends_in_position != before.ends_in_position;
 }
 
@@ -79,6 +112,7 @@ void MotorState::apply(const Send& send) {
     const OrderKind kind = table::kind_of(order);
     if (ends_homing(send) || kind == OrderKind::home) {
         modes = modes_after(kind, send);
+        left_in_init = kind == OrderKind::init;
         if (kind == OrderKind::init) init = send.span;
         homing = kind == OrderKind::home;
         home = send.span;
@@ -87,7 +121,11 @@ void MotorState::apply(const Send& send) {
         ends_in_position = sets_in_position(send.value);
         start_mode = ends_in_position ? Span{} : send.span;
     }
-    if (kind == OrderKind::speed || table::velocity_taken(order) != 0) stopped = false;
+    if (kind == OrderKind::speed || table::velocity_taken(order) != 0) {
+        stopped = false;
+        has_speed = true;
+    }
+    has_torque = has_torque || gives_torque(send);
     if (kind == OrderKind::stop) {
         stopped = true;
         stop = send.span;
@@ -134,7 +172,7 @@ class MotorWalk {
             if (const auto select = select_command(send.command); send.reg == nullptr && select)
                 judge_selection(*select, send, rule, state);
             if (send.reg != nullptr && send.reg->number == registers::MODE_REG) judge_mode(send, rule, state);
-            if (kind_of(send) == OrderKind::moves_by && state.stopped) warn_stopped(send, rule, state);
+            if (kind_of(send) == OrderKind::moves_by) judge_relative(send, rule, state);
             state.apply(send);
             if (kind_of(send) == OrderKind::home) home = &send;
         }
@@ -142,16 +180,49 @@ class MotorWalk {
 
   private:
     void judge_mode(const Send& send, const Rule& rule, const MotorState& state) {
-        if (send.value == 0 || kind_of(send) == OrderKind::home || (state.modes & kInit) == 0) return;
-        const char* where = send.value == 1   ? " at an old V_SOLL"
-                            : send.value == 2 ? " towards an old P_SOLL"
-                                              : "";
+        if (send.value == 0 || kind_of(send) == OrderKind::home) return;
+        const Mover mover = mover_of(send.value);
+        if (mover == Mover::within_speed && state.stopped) return warn_stopped(send, rule, state);
+        if ((state.modes & kInit) == 0) return;
+        if (mover == Mover::within_speed || mover == Mover::within_torque)
+            return judge_limit(send, rule, state, mover);
+        const char* where = mover == Mover::speed   ? " at an old V_SOLL"
+                            : mover == Mover::place ? " towards an old P_SOLL"
+                                                    : "";
         Diagnostic* said =
             complain("W011", send, rule,
                      fmt::format("writing MODE_REG may start the motor{}: it may be in INIT here", where),
-                     send.value == 1   ? "VELOCITY(V..); sets the velocity and the mode"
-                     : send.value == 2 ? "POSITION(P..); sets the position and the mode"
-                                       : "make sure that the registers of this mode are set before");
+                     mover == Mover::speed   ? "VELOCITY(V..); sets the velocity and the mode"
+                     : mover == Mover::place ? "POSITION(P..); sets the position and the mode"
+                                             : "make sure that the registers of this mode are set before");
+        note_init(said, state);
+    }
+
+    /// It changes P_SOLL or P_FNC, and no mode.
+    void judge_relative(const Send& send, const Rule& rule, const MotorState& state) {
+        if (state.stopped) return warn_stopped(send, rule, state);
+        if (!state.left_in_init || symbols_.drive != nullptr) return;
+        Diagnostic* said =
+            complain("W004", send, rule,
+                     fmt::format("the motor may not move: it may be in INIT here, and {} leaves it there",
+                                 statement_text(source_, send.span)),
+                     "let a POSITION(P..) come before on every way: the motor stays in "
+                     "position mode then");
+        note_init(said, state);
+    }
+
+    /// These modes have no command of their own; pulses or volts move the motor.
+    void judge_limit(const Send& send, const Rule& rule, const MotorState& state, Mover mover) {
+        const bool by_speed = mover == Mover::within_speed;
+        if (by_speed ? state.has_speed : state.has_torque) return;
+        const std::string_view name = registers::name_of_value(symbols_.motor, *send.reg, send.value);
+        Diagnostic* said = complain(
+            "W011", send, rule,
+            fmt::format("{} takes {} as its limit, and on some way here the program gives it no value",
+                        name.empty() ? fmt::format("mode {}", send.value) : std::string(name),
+                        by_speed ? "V_SOLL" : "T_SOLL"),
+            by_speed ? "select a velocity before, with INIT(V..), or write V_SOLL := ..;"
+                     : "select a torque before, with INIT(T..), or write T_SOLL := ..;");
         note_init(said, state);
     }
 
@@ -357,6 +428,7 @@ void check_motor_state(const Plan& plan, const Symbols& symbols, std::string_vie
     MotorWalk walk(plan, symbols, source, report);
     MotorState at_power_up;
     at_power_up.modes = kAnyMode;
+    at_power_up.left_in_init = true;
     walk_steps(plan, at_power_up, walk);
 }
 

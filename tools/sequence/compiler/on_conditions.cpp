@@ -41,7 +41,7 @@ class Groups {
             const auto group = groups_.find(upper(name.text));
             if (group != groups_.end()) {
                 steps |= group->second.second;
-            } else if (const auto number = scope_.step(name)) {
+            } else if (const auto number = scope_.step(name, names_of_groups())) {
                 steps.set(*number);
             }
         }
@@ -49,6 +49,12 @@ class Groups {
     }
 
   private:
+    std::vector<std::string_view> names_of_groups() const {
+        std::vector<std::string_view> names;
+        for (const auto& [upper_name, group] : groups_) names.push_back(group.first->text);
+        return names;
+    }
+
     Scope& scope_;
     std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
 };
@@ -97,6 +103,7 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
             scope.report().add("W001", written.condition.span, "this condition never holds",
                                "it contradicts itself: mend it, or take the line out");
         }
+        const std::size_t before_steps = scope.report().error_count() + scope.faulty_names_met();
         if (written.only.empty()) {
             on.steps = all_steps(scope);
             if (fault) on.steps.reset(*fault);
@@ -110,7 +117,11 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
                 warn_of_idle_except(name, scope);
             on.steps &= ~left_out;
         }
-        warn_if_nowhere(on, scope);
+        const bool names_are_known = scope.report().error_count() + scope.faulty_names_met() == before_steps;
+        if (names_are_known)
+            warn_if_nowhere(on, scope);
+        else
+            on.may_act = true;  // in the steps that are not known
         conditions.push_back(on);
     }
     return conditions;

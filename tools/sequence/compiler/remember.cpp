@@ -76,7 +76,8 @@ class Remembering {
 
     void add_timing(const ast::Branch& branch) {
         use_timer(branch.timing->span, branch.timing->is_limit ? kOneTimer : kHeld);
-        const auto time = timer_value(branch.timing->time, scope_);
+        const auto time = timer_value(branch.timing->time, scope_,
+                                      branch.timing->is_limit ? TimeFor::limit : TimeFor::lasting);
         if (!time) return;
         if (branch.timing->is_limit) {
             memory_.limit = *time;
@@ -99,7 +100,7 @@ class Remembering {
             if (const auto bit = scope_.output(name))
                 memory_.blinking |= static_cast<std::uint8_t>(1U << *bit);
         }
-        memory_.blink_for = timer_value(blinking.time, scope_).value_or(1);
+        memory_.blink_for = timer_value(blinking.time, scope_, TimeFor::blinking).value_or(1);
     }
 
     const char* help_of_blinking() const {

@@ -299,18 +299,20 @@ bool Scope::is_step(std::string_view name) const {
     return step_places_.contains(upper(name));
 }
 
-std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
+std::optional<std::uint8_t> Scope::step(const ast::Name& name, const std::vector<std::string_view>& groups) {
     const auto place = step_places_.find(upper(name.text));
     if (place != step_places_.end()) return numbers_[place->second];
     if (steps_missing_) return std::nullopt;
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> names = groups;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
         if (numbers_[i] <= kLastNamed) names.push_back(steps_[i]->name.text);
     }
     std::string help = suggestion(name.text, names);
     const bool is_sequence = std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end();
     if (help.empty() || is_sequence || is_group(name.text)) help = help_for_step(name.text);
-    report_.add("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
+    report_.add("E021", name.span,
+                fmt::format("there is no {} '{}'", groups.empty() ? "step" : "step or group", name.text),
+                help);
     return std::nullopt;
 }
 

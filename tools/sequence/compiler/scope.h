@@ -40,7 +40,7 @@ class Scope {
     const ast::Step* step_numbered(std::uint8_t number) const;
 
     /// Number of a step by name; reports an unknown one.
-    std::optional<std::uint8_t> step(const ast::Name& name);
+    std::optional<std::uint8_t> step(const ast::Name& name, const std::vector<std::string_view>& groups = {});
     /// Bit number of an input 0..5 or an output 0..3, by its name or address.
     std::optional<std::size_t> input(const ast::Name& name);
     std::optional<std::size_t> output(const ast::Name& name);

@@ -272,7 +272,9 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
             "TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
         return;
     }
-    std::string help = suggestion(text, names);
+    std::vector<std::string_view> meant = names;
+    for (const DeclaredSetPoint& declared : set_points_) meant.push_back(declared.written->name.text);
+    std::string help = suggestion(text, meant);
     if (find_register(text) != nullptr)
         help =
             "only constants can be written; a register's value is brought in by selecting it, as in "
@@ -293,6 +295,19 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
                                : fmt::format("there is no constant '{}'", text),
                 help);
 }
+
+namespace {
+
+/// Without blanks.
+std::string spelled_unit(std::string_view written) {
+    std::string unit;
+    for (const char c : written) {
+        if (c > ' ') unit += c;
+    }
+    return same_name(unit, "count") ? "counts" : unit;
+}
+
+}  // namespace
 
 std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Register& reg,
                                           std::string_view shown_name) {
@@ -348,6 +363,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
         return std::nullopt;
     for (std::size_t i = roundings; i < result_.roundings.size(); ++i)
         result_.roundings[i].makes_good = makes_good;
+    result_.symbols.units.try_emplace(reg.number, value.is_raw ? std::string() : spelled_unit(unit));
     return bits;
 }
 

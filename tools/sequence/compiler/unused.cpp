@@ -69,6 +69,9 @@ class Unused {
         if (send.reg != nullptr) {
             const bool selects = send.reg->number >= registers::P_REG_P && send.reg->number < registers::P1;
             selects_by_number_ = selects_by_number_ || selects;
+            const bool enters =
+                send.reg->number == registers::MODE_REG || send.reg->number == registers::STARTMODE;
+            if (enters) take_mode(send.value);
             return;
         }
         if (const auto select = select_command(send.command)) {
@@ -80,6 +83,20 @@ class Unused {
         if (!set) return;
         for (const Group group : {Group::p, Group::v, Group::a, Group::t, Group::l, Group::z})
             selected_.insert({group, *set});
+    }
+
+    /// Modes that take registers without a selection (001 §4.4.20 - §4.4.22).
+    void take_mode(std::uint32_t mode) {
+        constexpr std::uint32_t kCoil = 19;
+        constexpr std::uint32_t kTwoPositions = 20;
+        constexpr std::uint32_t kAnaloguePosition = 21;
+        constexpr std::uint8_t kByHand = 8;  // V8 turns the spool that does not
+        const std::uint8_t places = mode == kCoil               ? 6
+                                    : mode == kTwoPositions     ? 2
+                                    : mode == kAnaloguePosition ? 3
+                                                                : 0;
+        for (std::uint8_t i = 1; i <= places; ++i) selected_.insert({Group::p, i});
+        if (mode == kCoil) selected_.insert({Group::v, kByHand});
     }
 
     bool is_used(const ast::Name& name) const { return used_.contains(upper(name.text)); }
@@ -139,6 +156,10 @@ class Unused {
     }
 
     static std::string help_to_select(const Selection& place, std::string_view name) {
+        constexpr std::uint8_t kFirstDistance = 7;
+        if (place.group == Group::p && place.index >= kFirstDistance)
+            return fmt::format("POSITION({}); moves there, MOVE_P{}_BY_P_SOLL; by so much; or take it out",
+                               name, place.index);
         if (place.group == Group::p) return fmt::format("POSITION({}); moves there; or take it out", name);
         return fmt::format("add it to the INIT(..) of POWER_UP, or take it out");
     }

@@ -234,7 +234,7 @@ class Fixer {
     }
 
     void values() {
-        if (is("W007")) add("Write T#1ms", d_.span, "T#1ms");
+        if (is("W007") && advises("write T#1ms")) add("Write T#1ms", d_.span, "T#1ms");
         if (is("W002") && advises("if that will do")) {
             const std::string time = between(d_.help, "write ", " if");
             add("Write " + time, d_.span, time);

@@ -7,6 +7,30 @@
 #include "language/parser.h"
 
 namespace nplc::seqc {
+namespace {
+
+/// Water = 1, Brush -> Water, Water FOR 2 s: what other languages put behind a condition.
+std::string help_behind_claim(const Token& before, const Token& here, const Token& next) {
+    const auto is_sign = [](const Token& token, std::string_view sign) {
+        return token.kind == TokenKind::symbol && token.text == sign;
+    };
+    const auto is_word = [&](std::string_view word) {
+        return here.kind == TokenKind::identifier && same_name(here.text, word);
+    };
+    const bool is_arrow = (is_sign(here, "-") || is_sign(here, "=")) && is_sign(next, ">");
+    if (is_arrow || is_word("IMPLIES")) return "what follows from what is written WHENEVER c THEN d";
+    const bool compares = is_sign(here, "=") || is_sign(here, "<") || is_sign(here, ">") || is_word("IN");
+    if (compares && before.kind == TokenKind::identifier)
+        return "STEP alone is compared, as in STEP = Name or STEP IN Group; inputs and outputs hold or not: "
+               "write "
+               "Name or NOT Name";
+    if (is_word("FOR"))
+        return "how long something holds stands in WHENEVER c FOR 2 s THEN d, or NEVER c WHILE d FOR 2 s";
+    if (is_sign(here, ",")) return "STEP IN takes one group: GROUP Name: steps; gives several steps a name";
+    return {};
+}
+
+}  // namespace
 
 ast::Program Parser::parse_claims() {
     in_claims_file_ = true;
@@ -60,6 +84,13 @@ void Parser::finish_claim(const Token& first, bool is_sound, ast::Program& progr
     if (!is_sound) return recover_claim();
     claim_.span = span_since(first);
     if (at_symbol(";")) claim_.span.length = token().span.offset + token().span.length - claim_.span.offset;
+    if (const std::string help = help_behind_claim(tokens_[at_ - 1], token(), token(1)); !help.empty()) {
+        report_.add(
+            "E010", token().span,
+            fmt::format("a claim cannot go on with '{}' behind '{}'", token().text, tokens_[at_ - 1].text),
+            help);
+        return recover_claim();
+    }
     for (std::size_t i = claim_begin_; i < at_; ++i) claim_.words.push_back(tokens_[i].text);
     program.claims.push_back(std::move(claim_));
     end_statement();
@@ -163,7 +194,15 @@ bool Parser::parse_condition_first() {
 
 bool Parser::parse_only() {
     if (take("FROM")) return as(Form::only_from) && parse_condition();
-    if (!expect("AFTER", "or FROM behind ONLY") || !parse_condition()) return false;
+    if (!at("AFTER")) {
+        report_.add("E010", token().span,
+                    fmt::format("expected AFTER or FROM behind ONLY, found '{}'", token().text),
+                    "where it may hold alone is NEVER c AND NOT d, or x CHANGES ONLY IN d");
+        ++at_;
+        return false;
+    }
+    ++at_;
+    if (!parse_condition()) return false;
     if (!take("FOLLOWED")) return as(Form::only_after);
     return as(Form::only_after_both) && expect("BY", "behind FOLLOWED") && parse_condition();
 }
@@ -210,7 +249,16 @@ bool Parser::parse_step_test(ast::Expression& result) {
     if (take("IN")) {
         result.value = true;
         result.name = name_of(token());
+        if (at_symbol("(")) {
+            report_.add("E010", token().span, "STEP IN takes the name of one group",
+                        "give the steps one: GROUP Name: steps; and write STEP IN Name");
+            return false;
+        }
         return expect_name(result.name, "the name of a group", ast::Role::step_or_group);
+    }
+    if (at_symbol("<")) {
+        report_.add("E010", token().span, "a step is compared with = alone", "write NOT STEP = Name");
+        return false;
     }
     if (!expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
     const Token target = token();

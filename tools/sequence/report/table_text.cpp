@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "language/names.h"
 #include "lowering/cover.h"
 #include "registers/details.h"
 #include "symbols/commands.h"
@@ -147,18 +148,6 @@ std::string register_as_named(std::uint8_t number, const Symbols* symbols) {
     return found == names.end() ? register_name(number, symbols) : found->name;
 }
 
-std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
-    if (order.is_register_write) {
-        const std::int64_t value = value_of(order, symbols);
-        return fmt::format("{} := {}", register_as_named(order.reg, symbols),
-                           with_unit(value, order.reg, symbols).value_or(value_text(order, symbols)));
-    }
-    const std::string text = describe_command(order.command);
-    const auto select = select_command(order.command);
-    if (!select || symbols == nullptr) return text;
-    return fmt::format("{}({})", text.substr(0, text.find('(')), shown_register(*symbols, select->selection));
-}
-
 std::string time_text(std::uint16_t milliseconds) {
     const int seconds = milliseconds / 1000;
     const int rest = milliseconds % 1000;
@@ -201,9 +190,10 @@ std::string unit_for(const registers::Register& reg, const std::optional<LengthU
     return units.front() == "samples" ? "ms" : units.front();
 }
 
-/// With the fewest digits that distinguish it from adjacent values.
+/// With the fewest digits that distinguish it from adjacent values, and no farther from it than `most`, a
+/// share of it.
 std::optional<std::string> shortest(std::int64_t value, const registers::Register& reg,
-                                    const Symbols& symbols, const std::string& unit) {
+                                    const Symbols& symbols, const std::string& unit, double most = 1) {
     constexpr int kMostPlaces = 6;
     const auto raw = raw_per_unit(reg, symbols.motor, length_of(symbols), unit);
     if (!raw || *raw == 1) return std::nullopt;
@@ -213,7 +203,9 @@ std::optional<std::string> shortest(std::int64_t value, const registers::Registe
         const double tens = std::pow(10.0, std::max(-places, 0));
         const double rounded = places > 0 ? exact : std::round(exact / tens) * tens;
         text = fmt::format("{:.{}f}", rounded, std::max(places, 0));
-        if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
+        const double meant = std::strtod(text.c_str(), nullptr) * *raw;
+        const double lost = std::fabs(meant - static_cast<double>(value));
+        if (std::llround(meant) == value && lost <= most * std::fabs(static_cast<double>(value))) break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
@@ -233,6 +225,49 @@ std::optional<std::string> with_machine_unit(std::int64_t value, std::uint8_t nu
     const std::vector<std::string> units = fitting_units(*reg, length_of(*symbols));
     const bool is_measured = !units.empty() && units.back().starts_with(symbols->scale->unit);
     return is_measured ? shortest(value, *reg, *symbols, units.back()) : with_unit(value, number, symbols);
+}
+
+namespace {
+
+/// The unit of a set-point, or what the program writes the register in; empty for a plain number.
+std::optional<std::string> unit_as_written(std::uint8_t number, const Symbols& symbols) {
+    for (const set_points::SetPoint& point : symbols.set_points.values) {
+        if (point.kind == set_points::ValueKind::motor_register && point.reg == number) return point.unit;
+    }
+    const auto found = symbols.units.find(number);
+    return found == symbols.units.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// As `with_unit`, in the unit in which the program has it. A plain number is one of counts or samples.
+std::optional<std::string> value_as_written(const sequencer::MotorOrder& write, const Symbols* symbols) {
+    const registers::Register* reg =
+        symbols == nullptr ? nullptr : registers::find(symbols->motor, write.reg);
+    if (reg == nullptr) return std::nullopt;
+    const std::int64_t value = value_of(write, symbols);
+    const std::vector<std::string> units = fitting_units(*reg, length_of(*symbols));
+    const std::string own = units.empty() ? "" : units.front();
+    const bool is_counted = own == "counts" || own == "samples";
+    const auto written = unit_as_written(write.reg, *symbols);
+    const bool is_plain = written ? written->empty() : !symbols->scale && own == "counts";
+    if (is_counted && (is_plain || (written && same_name(*written, own))) &&
+        raw_per_unit(*reg, symbols->motor, std::nullopt, own) == 1)
+        return fmt::format("{} {}", value, own);
+    constexpr double kTold = 0.01;  // what is rounded by more has a warning
+    if (written && !written->empty()) return shortest(value, *reg, *symbols, *written, kTold);
+    return with_unit(value, write.reg, symbols);
+}
+
+}  // namespace
+
+std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
+    if (order.is_register_write) {
+        return fmt::format("{} := {}", register_as_named(order.reg, symbols),
+                           value_as_written(order, symbols).value_or(value_text(order, symbols)));
+    }
+    const std::string text = describe_command(order.command);
+    const auto select = select_command(order.command);
+    if (!select || symbols == nullptr) return text;
+    return fmt::format("{}({})", text.substr(0, text.find('(')), shown_register(*symbols, select->selection));
 }
 
 namespace {

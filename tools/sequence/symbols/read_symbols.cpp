@@ -177,6 +177,12 @@ void read_registers(const Node& node, Symbols& symbols, Different& different) {
     }
 }
 
+void read_units(const Node& node, Symbols& symbols) {
+    for (const Node& entry : node.list())
+        symbols.units.insert_or_assign(static_cast<std::uint8_t>(entry["number"].whole(1, kLastRegister)),
+                                       entry["unit"].text());
+}
+
 set_points::SetPoint read_set_point(const Node& node) {
     using set_points::ValueKind;
     set_points::SetPoint point;
@@ -269,6 +275,7 @@ SymbolFile read(const Node& root) {
     read_signals(root["inputs"], file.symbols.inputs, different);
     read_signals(root["outputs"], file.symbols.outputs, different);
     read_registers(root["registers"], file.symbols, different);
+    if (root.has("units")) read_units(root["units"], file.symbols);
     if (root.has("set_points")) read_set_points(root, file.symbols);
     read_table(root["table"], root["terms"], file);
     return file;

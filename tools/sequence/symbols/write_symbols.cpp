@@ -58,6 +58,12 @@ Json registers_of(const Symbols& symbols) {
     return list;
 }
 
+Json units_of(const Symbols& symbols) {
+    Json list = Json::array();
+    for (const auto& [number, unit] : symbols.units) list.push_back({{"number", number}, {"unit", unit}});
+    return list;
+}
+
 Json steps_of(const Compilation& compilation, const Places& places, const Sources& sources) {
     Json list = Json::array();
     for (const StepOrigin& step : compilation.steps) {
@@ -127,6 +133,7 @@ std::string write_symbols(const Compilation& compilation, const Sources& sources
     file["inputs"] = symbols.inputs;
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);
+    if (!symbols.units.empty()) file["units"] = units_of(symbols);
     if (!symbols.set_points.values.empty()) {
         file["set_points"] = json_of(symbols.set_points);
         file["takes_set_points"] = takes_of(symbols.set_points);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,6 +68,8 @@ struct Symbols {
     std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
     std::vector<MotorName> motor_names;  ///< in source order
     set_points::Record set_points;       ///< values that a user may change
+    /// What the program first writes a register in, by its number; empty: a plain number.
+    std::map<std::uint8_t, std::string> units;
     bool operator==(const Symbols&) const = default;
 };
 
