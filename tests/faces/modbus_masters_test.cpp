@@ -173,6 +173,66 @@ TEST_F(TwoAddresses, WhoWasForgottenBeginsAnew) {
     EXPECT_FALSE(plant.runs());
 }
 
+struct Silent : TwoAddresses {
+    Silent() {
+        plant.settings.on_silence = Silence::stop;
+        plant.settings.silence = 2s;
+        plant.settings.tell = [this](const std::string& axis, const std::string& text) {
+            told.push_back(axis + ": " + text);
+        };
+    }
+    bool is_due() { return plant.units[0]->due(plant.now()).has_value(); }
+    std::vector<std::string> told;
+};
+
+TEST_F(Silent, AMasterIsNamed) {
+    EXPECT_TRUE(plant.write(plc, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 5}));
+    EXPECT_FALSE(is_due());
+    plant.run(2'100ms);
+    EXPECT_TRUE(is_due());
+    EXPECT_FALSE(is_due()) << "once";
+    EXPECT_EQ(told, (std::vector<std::string>{
+                        "x: Modbus 10.0.0.1, which operated last, has said nothing for 2000 ms: stop"}));
+}
+
+TEST_F(Silent, AMasterThatLeavesIsNamed) {
+    {
+        Master brief{plant.units, "Modbus 10.0.0.3", plant.bell};
+        EXPECT_TRUE(plant.write(brief, 0, {0, 0}));
+        EXPECT_TRUE(plant.write(brief, 0, {kRun, 5}));
+    }
+    plant.run(2'100ms);
+    EXPECT_TRUE(is_due());
+    EXPECT_EQ(told, (std::vector<std::string>{"x: Modbus 10.0.0.3, which operated last, has left: stop"}));
+}
+
+/// Its command may have been carried out.
+TEST_F(Silent, AMasterThatDoesNotWaitForItsAnswerIsOne) {
+    {
+        Master brief{plant.units, "Modbus 10.0.0.3", plant.bell};
+        EXPECT_TRUE(plant.write(brief, 0, {0, 0}));
+        EXPECT_FALSE(plant.begin(brief, Plant::written(0, {kRun, 5})));
+        plant.run(20ms);
+    }
+    ASSERT_TRUE(plant.runs());
+    plant.run(2'100ms);
+    EXPECT_TRUE(is_due());
+}
+
+/// Its asking does not hide the silence of the one that has the seat.
+TEST_F(Silent, WhoWasRefusedIsNotTheMaster) {
+    constexpr unsigned kSeatTaken = 22;
+    EXPECT_TRUE(plant.write(plc, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 5}));
+    EXPECT_TRUE(plant.write(panel, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(panel, 0, {kRun, 5}));
+    EXPECT_EQ(plant.ended(panel), (Words{5, kSeatTaken}));
+    plant.run(2'100ms);
+    static_cast<void>(plant.ended(panel));
+    EXPECT_TRUE(is_due());
+}
+
 /// A storage that takes 2,000 polls of 250 us for each operation: longer than a master waits.
 struct SlowStorage : testing::Test {
     SlowStorage() {

@@ -86,9 +86,20 @@ void PlantPart::look(base::Instant now) {
     }
 }
 
+/// The journal is written from any thread.
+modbus::Settings PlantPart::telling(modbus::Settings settings) {
+    settings.tell = [this](const std::string& axis, const std::string& text) {
+        journal_.write(LogLevel::warning, fmt::format("{}: {}", axis, text),
+                       {{"AXIS", axis}, {"EVENT", "master_silent"}});
+    };
+    return settings;
+}
+
 void PlantPart::add_modbus() {
     faces_.push_back({"Modbus", [this](std::string& where, std::string& error) {
-                          auto opened = modbus::TcpServer::open(config_.modbus.options, axes_);
+                          modbus::TcpServer::Options options = config_.modbus.options;
+                          options.settings = telling(options.settings);
+                          auto opened = modbus::TcpServer::open(options, axes_);
                           error = opened.error;
                           if (opened.server) where = "listens at " + opened.server->name();
                           return std::shared_ptr<void>(std::move(opened.server));
@@ -97,7 +108,9 @@ void PlantPart::add_modbus() {
 
 void PlantPart::add_modbus_rtu() {
     faces_.push_back({"Modbus RTU", [this](std::string& where, std::string& error) {
-                          auto opened = modbus::RtuServer::open(config_.modbus.rtu, axes_);
+                          modbus::RtuServer::Options options = config_.modbus.rtu;
+                          options.settings = telling(options.settings);
+                          auto opened = modbus::RtuServer::open(options, axes_);
                           error = opened.error;
                           where = "answers on " + config_.modbus.rtu.port;
                           return std::shared_ptr<void>(std::move(opened.server));

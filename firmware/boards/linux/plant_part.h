@@ -35,6 +35,7 @@ class PlantPart {
         std::shared_ptr<void> running{};
         bool was_told = false;
     };
+    modbus::Settings telling(modbus::Settings settings);
     void add_modbus();
     void add_modbus_rtu();
     void add_metrics();

@@ -1,5 +1,7 @@
 #include "modbus/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -101,6 +103,13 @@ std::optional<Command> Unit::due(base::Instant now) {
     if (master == 0 || settings.on_silence == Silence::nothing || now - heard <= settings.silence)
         return std::nullopt;
     master = 0;
+    const bool stops = settings.on_silence == Silence::stop;
+    const std::string how = heard == base::Instant{}
+                                ? "has left"
+                                : fmt::format("has said nothing for {} ms", settings.silence.count());
+    if (settings.tell)
+        settings.tell(model.name(), fmt::format("{}, which operated last, {}: {}", master_name, how,
+                                                stops ? "stop" : "safe"));
     return Command::of(settings.on_silence == Silence::stop ? gw::Command::stop : gw::Command::safe, now);
 }
 
@@ -112,8 +121,13 @@ Session::Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, fa
       staged_(units.size()),
       written_(units.size()) {}
 
-/// If the session is the master, it counts as silent at once.
+/// If the session is the master, or may be without having heard so, it counts as silent at once.
 Session::~Session() {
+    for (const auto* one : {&waiting_, &aside_}) {
+        if (!*one || !(*one)->operates) continue;
+        units_[(*one)->index]->master = number_;
+        units_[(*one)->index]->master_name = name_;
+    }
     for (const auto& unit : units_) {
         if (unit->master == number_) unit->heard = base::Instant{};
     }
@@ -453,12 +467,11 @@ std::optional<Answer> Session::begin(const Look& look, const Request& request,
         }
         return Answer::refusal(request.function, Exception::device_failure);
     }
-    if (operates) {
-        look.unit.master = number_;
-        look.unit.heard = look.now;
-    }
-    waiting_ =
-        Waiting{.request = request, .index = look.index, .is_handshake = is_handshake, .begun = look.now};
+    waiting_ = Waiting{.request = request,
+                       .index = look.index,
+                       .is_handshake = is_handshake,
+                       .operates = operates,
+                       .begun = look.now};
     if (is_handshake) {
         const Handshake& shake = handshake_of(look.unit);
         waiting_->number = shake.number;
@@ -505,6 +518,7 @@ std::optional<Answer> Session::take(base::Instant now) {
     if (!waiting_ && !aside_) return std::nullopt;
     take_ended(now);
     if (aside_ && aside_->ended.size() == aside_->ids.size()) {
+        note_master(*aside_, now);
         enter(*aside_);
         aside_.reset();
     }
@@ -515,6 +529,7 @@ std::optional<Answer> Session::take(base::Instant now) {
                    ? std::optional(put_aside())
                    : std::nullopt;
     }
+    note_master(*waiting_, now);
     const Answer answer = finished();
     waiting_.reset();
     return answer;
@@ -530,6 +545,15 @@ Answer Session::put_aside() {
     }
     if (waiting.has_number) aside_ = std::move(waiting);
     return Answer::echo(std::span(pdu_).first(size_));
+}
+
+void Session::note_master(const Waiting& waiting, base::Instant now) {
+    const auto is_done = [](const Completion& ended) { return ended.result == Result::done; };
+    if (!waiting.operates || std::none_of(waiting.ended.begin(), waiting.ended.end(), is_done)) return;
+    Unit& unit = *units_[waiting.index];
+    unit.master = number_;
+    unit.master_name = name_;
+    unit.heard = now;
 }
 
 void Session::enter(const Waiting& waiting) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct Settings {
     /// Reaction when the operating master is silent for `silence`, or has disconnected.
     Silence on_silence = Silence::nothing;
     base::Milliseconds silence{5'000};
+    /// Says why the machine of an axis is stopped for a silent master. From the face's thread.
+    std::function<void(const std::string& axis, const std::string& text)> tell{};
 };
 
 /// What the clients of one address have written, and how their last command ended.
@@ -57,10 +60,11 @@ class Unit {
 
     std::uint32_t acknowledged = 0;  ///< of event_count
 
-    std::uint64_t master = 0;  ///< the last operating session; 0: none
-    base::Instant heard{};     ///< last request from it
+    std::uint64_t master = 0;   ///< the last operating session; 0: none
+    std::string master_name{};  ///< its name
+    base::Instant heard{};      ///< last request from it
 
-    /// The command for on_silence that is due; once.
+    /// The command for on_silence that is due; once, and told.
     std::optional<faces::Command> due(base::Instant now);
 
   private:
@@ -106,6 +110,7 @@ class Session {
         bool has_number = false;   ///< of a handshake; false: a stop without one
         std::uint16_t number = 0;  ///< command_number
         bool takes_set_points = false;
+        bool operates = false;
         base::Instant begun{};
         bool is_whole = false;  ///< all of its commands were accepted
         std::vector<std::uint32_t> ids{};
@@ -154,6 +159,8 @@ class Session {
     void take_ended(base::Instant now);
     /// Enters how a handshake ended, unless a newer command has begun.
     void enter(const Waiting& waiting);
+    /// Who was refused operates nothing, and nobody waits for its silence.
+    void note_master(const Waiting& waiting, base::Instant now);
     Answer finished();
     Answer window_answer(const Unit& unit) const;
 
