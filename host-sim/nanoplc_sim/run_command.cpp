@@ -13,19 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "hal_linux/connections.h"
-#include "hal_linux/file_storage.h"
-#include "hal_linux/key_reader.h"
-#include "hal_linux/steady_clock.h"
 #include "host/printable.h"
 #include "host/terminal.h"
 #include "input_file.h"
-#include "listener/exchange.h"
-#include "panel_door.h"
+#include "outside.h"
 #include "program.h"
 #include "session.h"
 #include "sim/output_file.h"
-#include "sim_faces.h"
 
 namespace nplc::sim {
 namespace {
@@ -83,9 +77,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr Time kSlice = std::chrono::milliseconds{50};
 constexpr auto kRefresh = std::chrono::milliseconds{100};
-constexpr std::chrono::milliseconds kKeyWait{5};
-/// A client program waits for each answer.
-constexpr std::chrono::milliseconds kPortWait{1};
 
 Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!options.scenario) return {};
@@ -132,94 +123,6 @@ void run_fast(Session& session, const RunOptions& options, const volatile std::s
         session.advance(session.now() + kSlice);
         progress.show(session);
     }
-}
-
-/// The gateway's port for outside programs; inactive without --mactalk.
-class Door {
-  public:
-    Door(const RunOptions& options, faces::Seat& operators) {
-        if (!options.mactalk) return;
-        auto opened = hal_linux::Connections::open(*options.mactalk, {});
-        if (!opened.connections) throw InputError("--mactalk " + opened.error);
-        connections_ = std::move(opened.connections);
-        listener_.emplace(boards::Listener::Options{.name = connections_->name(), .operators = &operators});
-        exchange_.emplace(*connections_, *listener_, &clock_);
-    }
-    bool is_open() const { return exchange_.has_value(); }
-    void announce() const {
-        if (is_open()) fmt::print("mactalk: {}\n", connections_->name());
-    }
-    /// By the wall clock: virtual time stops while this process is halted.
-    void take_in(Session& session) {
-        if (!is_open()) return;
-        World& world = session.world();
-        if (std::exchange(starts_, world.starts()) != world.starts()) listener_->restarted();
-        listener_->set_addresses({world.gateway_address(), world.motor_address()});
-        exchange_->bring(world.controller(), clock_.now(), world.instant());
-    }
-    void hand_out(Session& session) {
-        if (is_open())
-            exchange_->take_back(session.world().controller(), clock_.now(), session.world().instant());
-    }
-
-  private:
-    hal_linux::SteadyClock clock_;
-    std::unique_ptr<hal_linux::Connections> connections_;
-    std::optional<boards::Listener> listener_;
-    std::optional<boards::Exchange> exchange_;
-    std::uint64_t starts_ = 0;
-};
-
-void handle_key(Session& session, char key) {
-    if (key == 'q' || key == 'Q') session.stop();
-    if (key >= '0' && key < '0' + static_cast<char>(kInputs)) session.press(static_cast<unsigned>(key - '0'));
-}
-
-void show_status(const Session& session) {
-    const std::string line = session.status_line();
-    fmt::print("\r\033[K{}", std::string_view(line).substr(0, host::terminal_columns() - 1));
-    std::fflush(stdout);
-}
-
-/// Virtual time follows the wall clock. The status line is rewritten in place below the timeline.
-void run_realtime(Session& session, Door& door, SimFaces& faces, PanelDoor& panel,
-                  const volatile std::sig_atomic_t& interrupted) {
-    hal_linux::KeyReader keys;
-    const bool live = host::is_terminal(stdout);
-    if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
-    if (live) session.clear_line_before_each("\r\033[K");
-    door.announce();
-    session.after_each_step([&faces, &session] { faces.count(session.world()); });
-    panel.open();
-    faces.announce();
-    if (door.is_open() || panel.is_open() || faces.is_open()) fmt::print("ready\n");
-    std::fflush(stdout);
-    Pace pace(Clock::now());
-    auto next_status = Clock::now();
-    while (!session.ended() && interrupted == 0) {
-        door.take_in(session);
-        panel.serve(session);
-        session.advance(pace.virtual_time(Clock::now(), panel.speed()));
-        door.hand_out(session);
-        faces.serve(session.world());
-        if (Clock::now() >= next_status) {
-            next_status = Clock::now() + kRefresh;
-            if (live) show_status(session);
-            std::fflush(stdout);
-        }
-        const bool has_clients = door.is_open() || panel.is_open() || faces.is_open();
-        if (const auto key = keys.key(has_clients ? kPortWait : kKeyWait, faces.descriptor()))
-            handle_key(session, *key);
-    }
-    if (live) fmt::print("\r\033[K");
-}
-
-/// Null unless requested.
-std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
-    if (!options.flash) return nullptr;
-    auto opened = hal_linux::FileStorage::open(*options.flash, World::kFlash);
-    if (!opened.storage) throw InputError("--flash " + opened.error);
-    return std::move(opened.storage);
 }
 
 /// Without an explicit option a JVL motor replaces a program's drive; the real drive is slower to accept
@@ -283,28 +186,13 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) host::complain(program.remark);
     tell_stand_in(options, program);
-    const auto flash = open_flash(options);
-    SimFaces faces(program.names);
-    if (options.modbus) {
-        if (const std::string error = faces.open_modbus(*options.modbus); !error.empty())
-            throw InputError("--modbus " + error);
-    }
-    if (options.metrics) {
-        if (const std::string error = faces.open_metrics(*options.metrics); !error.empty())
-            throw InputError("--metrics " + error);
-    }
-    if (options.mqtt) {
-        if (const std::string error = faces.open_mqtt(*options.mqtt); !error.empty())
-            throw InputError("--mqtt " + error);
-    }
-    Door door(options, faces.seat());
+    const auto outside = open_outside(options, program);
     const std::size_t columns = host::is_terminal(stdout) ? host::terminal_columns() : 0;
-    Session session(options, program, scenario, Palette(wants_colour()), columns, flash.get());
-    PanelDoor panel(options.panel, program, faces.model());
+    Session session(options, program, scenario, Palette(wants_colour()), columns, outside->flash());
     session.heading();
     fmt::print(stderr, "{}", session.doubts());
     if (options.realtime) {
-        run_realtime(session, door, faces, panel, interrupted);
+        outside->run(session, interrupted);
     } else {
         run_fast(session, options, interrupted);
     }

@@ -8,6 +8,9 @@
 #
 # The first family is the default.
 set(NPLC_FAMILIES jvl midi)
+if(NPLC_DEMO)
+  set(NPLC_FAMILIES jvl)
+endif()
 
 # nplc_family_sources(OUT)           the families' files in this folder
 # nplc_family_list(FOLDER NAME...)   writes family_list.h, which lists families by name for the compiler

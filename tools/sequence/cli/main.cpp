@@ -61,18 +61,7 @@ int main(int argc, char** argv) {
         "The language is described in tools/sequence/LANGUAGE.md; examples are in tools/sequence/examples.");
     add_colour_option(app);
     int exit_code = kOk;
-    add_build(app, exit_code);
-    add_check(app, exit_code);
-    add_dap(app, exit_code);
-    add_decompile(app, exit_code);
-    add_diff(app, exit_code);
-    add_disasm(app, exit_code);
-    add_explain(app, exit_code);
-    add_fmt(app, exit_code);
-    add_graph(app, exit_code);
-    add_lsp(app, exit_code);
-    add_report(app, exit_code);
-    add_verify(app, exit_code);
+    add_subcommands(app, exit_code);
     nplc::arguments::add_pages(
         app, about(), [&exit_code](const std::string& text) { exit_code = print_or_write(text, {}); });
     try {

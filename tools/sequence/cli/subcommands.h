@@ -18,4 +18,7 @@ void add_lsp(arguments::App& app, int& exit_code);
 void add_report(arguments::App& app, int& exit_code);
 void add_verify(arguments::App& app, int& exit_code);
 
+/// All that this program has.
+void add_subcommands(arguments::App& app, int& exit_code);
+
 }  // namespace nplc::seqc::cli
