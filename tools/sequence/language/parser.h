@@ -236,6 +236,9 @@ class Parser {
     void parse_set_point(ast::Program& program);
     bool parse_set_point_place(ast::SetPoint& point);
     bool parse_range(ast::SetPoint& point);
+    bool parse_bound(ast::Value& value);
+    bool goes_on_in_line() const;
+    void leave_set_point();
     void parse_takes(ast::Step& step);
 
     // parse_properties.cpp
