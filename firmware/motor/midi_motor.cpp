@@ -65,7 +65,7 @@ base::Instant MidiMotor::next_poll(base::Instant now) const {
 }
 
 bool MidiMotor::has_work(base::Instant now) const {
-    return (stop_wanted_ && now >= retry_at_) || reset_wanted_ || zero_wanted_ ||
+    return (stop_wanted_ ? now >= retry_at_ : reset_wanted_ || zero_wanted_) ||
            registers_.awaits_position() || orders_.is_executing() || !orders_.empty() || !status_is_new_ ||
            motion_.motion_unconfirmed() || access_.is_open();
 }

@@ -288,6 +288,29 @@ TEST_F(MidiCanScriptTest, BusOffInMidMove) {
     EXPECT_EQ(bus.take(), Frames{});
 }
 
+TEST_F(MidiCanScriptTest, APositionToBeZeroedBehindARefusedStopIsNoReasonToPoll) {
+    start();
+    move();
+    accept(kGo);
+    driver.stop();
+    EXPECT_EQ(until_command(), kStop);
+    refuse(kStop);
+    EXPECT_EQ(until_command(), kHardStop);
+    refuse(kHardStop);
+    driver.send(fast(0x63));  // P_IST := 0
+    const base::Instant end = now + 40ms;
+    int polls = 0;
+    while (now < end) {
+        driver.poll(now);
+        ++polls;
+        const Frames sent = bus.take();
+        for (const std::string& frame : sent)
+            frame.substr(4, 2) == "23" ? refuse(frame) : answer_query(frame);
+        if (sent.empty()) now = std::max(driver.next_poll(now), now + base::Microseconds(1));
+    }
+    EXPECT_LT(polls, 200);
+}
+
 TEST_F(MidiCanScriptTest, ATrippedModuleThatRefusesStopsToo) {
     start();
     move();
