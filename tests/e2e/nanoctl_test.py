@@ -546,7 +546,7 @@ class Words(Case):
         process = self.start()
         self.assertNotEqual(self.ctl("status")["link"], "up")
         process.send_signal(signal.SIGTERM)
-        self.assertIn("setting motor_baud is 38400 and the motor wants 19200", process.communicate(timeout=LONG)[1])
+        self.assertIn("setting motor_baud is 38400 and the motor's is 19200", process.communicate(timeout=LONG)[1])
 
     def test_forces(self):
         self.start()
