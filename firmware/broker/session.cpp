@@ -59,6 +59,8 @@ std::string set_secrets(mosquitto* session, const Options& options, const std::s
 
 std::string reason_of(int code) {
     const int cause = errno;
+    // The library names it in its header alone.
+    if (code == MOSQ_ERR_KEEPALIVE) return "the broker is silent, for longer than the keep-alive time";
     if (code == MOSQ_ERR_ERRNO) return std::strerror(cause);
     const std::string text = ::mosquitto_strerror(code);
     const bool is_known = text != ::mosquitto_strerror(MOSQ_ERR_UNKNOWN);

@@ -136,6 +136,21 @@ class OnALine(service_case.ServiceCase):
         # A function that it does not have ends at the silence.
         self.assertEqual(self.ask(10, 0x2B, 0x0E, 1, 0, size=5), frame(10, 0xAB, NO_FUNCTION))
 
+    def test_a_stop_is_found_whatever_is_before_and_behind_it(self):
+        self.begin(axes=2)
+        until(lambda: self.state(RUNNING) and self.state(RUNNING, 11), "running")
+        stop, read = frame(10, 5, 0, 1, 0xFF, 0), frame(10, 4, 0, 1, 0, 1)
+        # Noise, a half frame, a neighbour's frame whose length its function does not tell; another request, also one for the other axis.
+        for burst in (b"\x00" + stop, read[:5] + stop, frame(9, 0x2B, 0x0E, 1, 0) + stop, stop + read, stop + frame(11, 4, 0, 1, 0, 1),
+                      b"\x00" + frame(0, 5, 0, 1, 0xFF, 0), frame(0, 16, 0, 0, 0, 2, 4, 0, 2, 0, 7)):
+            self.send(burst)
+            until(lambda: (self.hear(300, patience=0.2), self.state(IS_SAFE))[1], f"safe after {burst.hex()}")
+            self.send(frame(10, 5, 0, 0, 0, 0))
+            self.hear(8)
+            self.send(frame(10, 5, 0, 0, 0xFF, 0))
+            self.hear(8)
+            until(lambda: self.state(RUNNING), "running again")
+
     def test_what_waited_too_long_starts_nothing(self):
         service = self.begin()
         until(lambda: self.state(RUNNING), "running")
@@ -162,6 +177,13 @@ class OnALine(service_case.ServiceCase):
             self.assertTrue(any(f"modbus.{key}: " in line for line in said), said)
         code, said = self.check(f'[modbus]\nrtu_port = "{self.path("motor")}"\n{self.axis()}', "--no-devices")
         self.assertTrue(any("is used twice" in line for line in said), said)
+
+    def test_one_port_for_two_listeners_is_a_mistake(self):
+        listeners = '[modbus]\nlisten = "tcp:0.0.0.0:1502"\n[metrics]\nlisten = "{}"\n'
+        code, said = self.check(f'{listeners.format("127.0.0.1:1502")}{self.axis()}', "--no-devices")
+        self.assertEqual(code, 2, said)
+        self.assertTrue(any("4: metrics.listen: 127.0.0.1:1502 is used twice: modbus.listen in line 2" in line for line in said), said)
+        self.assertEqual(self.check(f'{listeners.format("127.0.0.1:1503")}{self.axis()}', "--no-devices")[0], 0)
 
 
 if __name__ == "__main__":

@@ -391,11 +391,30 @@ class Served(service_case.ServiceCase, Case):
                 line.close()
             self.pull_out()
 
+    def test_a_broker_that_is_halted_is_said_to_be_silent(self):
+        self.begin_broker()
+        service = self.begin(wait_for="MQTT: connected")
+        halt(self.broker.process.pid)
+        self.until(lambda: "no connection" in service.said(), service)
+        self.assertIn("the broker is silent", service.said())
+        self.moves()
+
     def test_mistakes_are_named_and_the_place_is_told(self):
         code, said = self.check(f'[mqtt]\nbroker = "plc"\nnode = "a/b"\ncommands = ["start"]\nkey_file = "x"\n{self.axis()}', "--no-devices")
         self.assertEqual(code, 2)
         for key in ("broker", "node", "commands", "key_file"):
             self.assertTrue(any(f"mqtt.{key}: " in line for line in said), said)
+        for name, text in (("empty", "\n"), ("whole", "secret\n")):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write(text)
+        self.plug_in()
+        secret = f'[mqtt]\nbroker = "cell4:8883"\nnode = "n"\nuser = "u"\npassword_file = "{self.path("empty")}"\nca_file = "{self.path("nothing")}"\n'
+        code, said = self.check(f"{secret}{self.axis()}")
+        self.assertEqual(code, 3, said)
+        self.assertTrue(any("5: mqtt.password_file: the first line" in line for line in said), said)
+        self.assertTrue(any("6: mqtt.ca_file: there is no file" in line for line in said), said)
+        code, said = self.check(f"{secret.replace('empty', 'whole').replace('nothing', 'whole')}{self.axis()}")
+        self.assertEqual((code, [line for line in said if "mqtt" in line]), (0, []), said)
         config = self.write(self.axis(), service='[mqtt]\nbroker = "cell4:8883"\nnode = "n"\nca_file = "/x"\ncommands = ["stop"]')
         checked = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", config], capture_output=True, text=True,
                                  check=True)

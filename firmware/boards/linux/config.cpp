@@ -52,6 +52,7 @@ class Reader {
         read_axes(root);
         root.finish();
         find_doubles();
+        find_double_ports();
         std::stable_sort(findings_.mistakes.begin(), findings_.mistakes.end(),
                          [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
         return std::move(result_);
@@ -253,11 +254,47 @@ class Reader {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
             for (const LocatedText& line : axis.gpio) take("line " + line_id(line.text), line);
             for (const LocatedText& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port}) {
-                if (port.is_there()) take("port " + port_id(port.text), port);
+                if (port.is_there() && !port.text.starts_with("tcp:"))
+                    take("port " + port_id(port.text), port);
             }
             if (axis.motor.is_on_can())
                 take("on " + axis.motor.line_in_words(),
                      {axis.motor.line_in_words(), axis.motor.address.line, axis.motor.address.key});
+        }
+    }
+
+    /// "tcp:ADDRESS:PORT" or "ADDRESS:PORT"; port 0 is any free one.
+    static bool share_a_port(std::string_view one, std::string_view other) {
+        const auto split = [](std::string_view text) {
+            if (text.starts_with("tcp:")) text.remove_prefix(4);
+            const std::size_t colon = std::min(text.rfind(':'), text.size());
+            return std::pair(text.substr(0, colon), text.substr(colon));
+        };
+        const auto is_all = [](std::string_view address) {
+            return address == "0.0.0.0" || address == "[::]" || address == "::";
+        };
+        const auto [address, port] = split(one);
+        const auto [other_address, other_port] = split(other);
+        if (port != other_port || port.size() < 2 || port == ":0") return false;
+        return address == other_address || is_all(address) || is_all(other_address);
+    }
+
+    /// Two that listen at one port of this machine, at one address or one of them at all.
+    void find_double_ports() {
+        std::vector<LocatedText> listeners{result_.config.panel.listen, result_.config.modbus.listen,
+                                           result_.config.metrics.listen};
+        for (const AxisConfig& axis : result_.config.axes) {
+            if (axis.user_port.text.starts_with("tcp:")) listeners.push_back(axis.user_port);
+        }
+        for (auto one = listeners.begin(); one != listeners.end(); ++one) {
+            const auto first = std::find_if(listeners.begin(), one, [one](const LocatedText& other) {
+                return share_a_port(other.text, one->text);
+            });
+            if (first == one) continue;
+            findings_.mistakes.push_back(
+                {one->line, one->key,
+                 fmt::format("{} is used twice: {} in line {} listens at {}; write another port", one->text,
+                             first->key, first->line, first->text)});
         }
     }
 

@@ -96,6 +96,33 @@ void check_secret(const LocatedText& file, std::size_t most, std::vector<Mistake
         missing.push_back({file.line, file.key, error});
 }
 
+bool may_read(const LocatedText& file, std::vector<Mistake>& missing) {
+    std::error_code error;
+    const bool is_file = fs::exists(file.text, error) && !fs::is_directory(file.text, error);
+    if (is_file && ::access(file.text.c_str(), R_OK) == 0) return true;
+    missing.push_back(
+        {file.line, file.key,
+         is_file ? fmt::format("you may not read {}; run as the service does, which must be let read it",
+                               file.text)
+                 : fmt::format("there is no file {}; put it there, or name another", file.text)});
+    return false;
+}
+
+/// Only of a client that is switched on.
+void check_mqtt(const MqttConfig& mqtt, std::vector<Mistake>& missing) {
+    if (!mqtt.broker.is_there()) return;
+    for (const LocatedText& file : mqtt.tls_files) {
+        if (file.is_there()) may_read(file, missing);
+    }
+    const LocatedText& file = mqtt.password_file;
+    if (!file.is_there() || !may_read(file, missing)) return;
+    std::string password;
+    std::getline(std::ifstream(file.text), password);
+    if (password.empty() || password == "\r")
+        missing.push_back({file.line, file.key,
+                           fmt::format("the first line of {} is empty; it must be the password", file.text)});
+}
+
 /// One line with two names is detected only here: only the kernel can resolve a name.
 class LineCheck {
   public:
@@ -143,6 +170,7 @@ std::vector<Mistake> missing_devices(const Config& config) {
     check_serial(config.modbus.rtu_port, missing);
     for (const LocatedText& file : {config.panel.token_file, config.panel.password_file})
         check_secret(file, kMostPanelSecret, missing);
+    check_mqtt(config.mqtt, missing);
     if (const LocatedText& device = config.watchdog_device;
         device.is_there() && !is_character_device(device.text))
         missing.push_back({device.line, device.key,

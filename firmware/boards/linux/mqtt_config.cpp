@@ -40,12 +40,17 @@ void read_names(Section& section, mqtt::Options& options) {
     read("primary_host", options.primary_host);
 }
 
-void read_secrets(Section& section, mqtt::Options& options) {
+void read_secrets(Section& section, MqttConfig& config) {
+    mqtt::Options& options = config.options;
     options.user = located_text(section, "user").text;
-    options.password_file = located_text(section, "password_file").text;
-    options.ca_file = located_text(section, "ca_file").text;
-    options.certificate_file = located_text(section, "certificate_file").text;
-    options.key_file = located_text(section, "key_file").text;
+    config.password_file = located_text(section, "password_file");
+    options.password_file = config.password_file.text;
+    const auto read_file = [&](const char* key) {
+        return config.tls_files.emplace_back(located_text(section, key)).text;
+    };
+    options.ca_file = read_file("ca_file");
+    options.certificate_file = read_file("certificate_file");
+    options.key_file = read_file("key_file");
     for (const broker::Mistake& mistake : broker::mistakes_of(options))
         section.complain(std::string(mistake.key), std::string(mistake.text));
 }
@@ -136,7 +141,7 @@ MqttConfig read_mqtt(Section& root, Findings& findings) {
     mqtt::Options& options = config.options;
     config.broker = located_text(section, "broker");
     read_names(section, options);
-    read_secrets(section, options);
+    read_secrets(section, config);
     read_commands(section, options);
     read_set_points(section, options);
     if (const auto period = section.number("period", 100, 3'600'000))

@@ -8,6 +8,8 @@ namespace nplc::boards {
 /// Table `mqtt`. Without `broker` there is no client.
 struct MqttConfig {
     LocatedText broker;
+    LocatedText password_file{};
+    std::vector<LocatedText> tls_files{};
     mqtt::Options options{};
 };
 MqttConfig read_mqtt(Section& root, Findings& findings);

@@ -11,6 +11,7 @@
 #include "hal_linux/quiet_thread.h"
 #include "hal_linux/steady_clock.h"
 #include "hal_linux/wakeup.h"
+#include "line_stops.h"
 #include "protocol/modbus_rtu.h"
 #include "rtu_line.h"
 #include "unit_set.h"
@@ -21,21 +22,6 @@ namespace {
 /// An adapter delivers characters in groups; a shorter pause does not end a frame.
 constexpr base::Milliseconds kLumps{20};
 constexpr base::Milliseconds kBriefly{1};
-
-/// A broadcast of stop, safe or hold, as coil or command.
-std::optional<faces::Command> stop_in(std::span<const std::uint8_t> pdu, base::Instant now) {
-    namespace gw = registers::gateway;
-    const auto [request, exception] = decode(pdu);
-    if (exception != Exception::none || !request.writes || request.count != 1) return std::nullopt;
-    if (request.space == Space::coil && request.bit(0)) {
-        if (request.address == kStop) return faces::Command::of(gw::Command::stop, now);
-        if (request.address == kSafe) return faces::Command::of(gw::Command::safe, now);
-        if (request.address == kHold) return faces::Command::of(gw::Command::hold, now);
-    }
-    if (request.space != Space::holding_register || request.address != kCommand) return std::nullopt;
-    const auto command = faces::Command::of(static_cast<gw::Command>(request.word(0)), now);
-    return command.is_stop() ? std::optional(command) : std::nullopt;
-}
 
 }  // namespace
 
@@ -57,7 +43,11 @@ class RtuServer::Loop {
     void wait();
     void read(base::Instant now);
     void note_frame(base::Instant now);
+    void note_stop(base::Instant now);
+    std::optional<std::size_t> index_of(std::uint8_t unit) const;
+    std::optional<Answer> hand_over(base::Instant now);
     void serve(base::Instant now);
+    void finish_pending(base::Instant now);
     void send(base::Instant now);
     void answer(const Answer& pdu) { frame_ = RtuFrame(unit_, pdu.bytes()); }
     base::Instant due(base::Instant now) const;
@@ -71,6 +61,7 @@ class RtuServer::Loop {
     std::optional<Session> session_;
     std::unique_ptr<RtuLine> line_;
     RtuReader reader_;
+    StopFinder finder_;
     std::array<pollfd, 2> polled_{};
 
     base::Instant heard_{};     ///< the last character
@@ -141,23 +132,35 @@ void RtuServer::Loop::read(base::Instant now) {
     }
     if (count != 0) heard_ = now;
     for (const ports::ReceivedByte& byte : std::span(bytes).first(count)) {
-        if (byte.framing_error)
+        if (byte.framing_error) {
             reader_.damaged();
-        else if (reader_.take(byte.value))
+            continue;
+        }
+        const bool is_stop = finder_.take(byte.value);
+        if (reader_.take(byte.value))
             note_frame(now);
+        else if (is_stop)
+            note_stop(now);
     }
 }
 
-/// A new request cancels the answer to the previous one.
+std::optional<std::size_t> RtuServer::Loop::index_of(std::uint8_t unit) const {
+    if (unit < options_.unit || std::size_t{unit} - options_.unit >= set_.size()) return std::nullopt;
+    return std::size_t{unit} - options_.unit;
+}
+
+/// A new request cancels the answer to the previous one, which is carried out all the same.
 void RtuServer::Loop::note_frame(base::Instant now) {
     if (reader_.unit() == kBroadcast) {
-        if (const auto stop = stop_in(reader_.pdu(), now)) set_.stop_all(*stop);
+        finish_pending(now);
+        for (const faces::Command& stop : stops_in(reader_.pdu(), now)) set_.stop_all(stop);
         return;
     }
-    const std::size_t index = std::size_t{reader_.unit()} - options_.unit;
-    if (reader_.unit() < options_.unit || index >= set_.units().size()) return;
+    if (!index_of(reader_.unit())) return;
     frame_.reset();
     sent_ = 0;
+    if (session_->is_waiting()) static_cast<void>(session_->put_aside());
+    if (request_size_ != 0) static_cast<void>(hand_over(now));
     if (session_->is_waiting()) static_cast<void>(session_->put_aside());
     unit_ = reader_.unit();
     request_arrived_ = arrived_;
@@ -166,15 +169,35 @@ void RtuServer::Loop::note_frame(base::Instant now) {
     asked_.reset();
 }
 
+/// Outside of a frame: carried out without an answer, for who is to answer here is not certain.
+void RtuServer::Loop::note_stop(base::Instant now) {
+    finish_pending(now);
+    const bool is_for_all = finder_.unit() == kBroadcast;
+    const auto index = index_of(finder_.unit());
+    for (const faces::Command& stop : stops_in(finder_.pdu(), now)) {
+        if (is_for_all) set_.stop_all(stop);
+        if (!is_for_all && index) set_.stop(*index, stop);
+    }
+}
+
+std::optional<Answer> RtuServer::Loop::hand_over(base::Instant now) {
+    const auto number = static_cast<std::uint8_t>(unit_ - options_.unit + 1);
+    const std::span<const std::uint8_t> pdu = std::span(request_).first(std::exchange(request_size_, 0));
+    return session_->serve(number, pdu, {.now = now, .arrived = request_arrived_});
+}
+
 /// Answers once there is a recent image.
 void RtuServer::Loop::serve(base::Instant now) {
     if (!asked_) asked_ = now;
     if (!set_.is_fresh(now) && now - *asked_ < UnitSet::kImageWait) return;
+    finish_pending(now);
+}
+
+/// What came before a stop is carried out before it.
+void RtuServer::Loop::finish_pending(base::Instant now) {
+    if (request_size_ == 0) return;
     asked_.reset();
-    const auto number = static_cast<std::uint8_t>(unit_ - options_.unit + 1);
-    const std::span<const std::uint8_t> pdu = std::span(request_).first(std::exchange(request_size_, 0));
-    if (const auto at_once = session_->serve(number, pdu, {.now = now, .arrived = request_arrived_}))
-        answer(*at_once);
+    if (const auto at_once = hand_over(now)) answer(*at_once);
 }
 
 void RtuServer::Loop::send(base::Instant now) {

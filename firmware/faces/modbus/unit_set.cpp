@@ -33,10 +33,12 @@ void UnitSet::watch_masters(base::Instant now) {
     }
 }
 
+void UnitSet::stop(std::size_t index, const faces::Command& command) {
+    if (guards_[index]) guards_[index]->submit(command);
+}
+
 void UnitSet::stop_all(const faces::Command& command) {
-    for (const auto& guard : guards_) {
-        if (guard) guard->submit(command);
-    }
+    for (std::size_t i = 0; i < guards_.size(); ++i) stop(i, command);
 }
 
 bool UnitSet::has_master(std::uint64_t session) const {

@@ -29,6 +29,9 @@ class UnitSet {
     std::vector<std::unique_ptr<Unit>>& units() { return units_; }
     bool is_fresh(base::Instant now) const;
     void watch_masters(base::Instant now);
+    std::size_t size() const { return units_.size(); }
+    /// Sends a stop to one axis.
+    void stop(std::size_t index, const faces::Command& command);
     /// Sends a stop to all axes.
     void stop_all(const faces::Command& command);
     bool has_master(std::uint64_t session) const;
