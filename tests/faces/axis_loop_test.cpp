@@ -77,6 +77,39 @@ TEST(AxisLoop, TakesImagesOnlyWhileSomebodyAsks) {
     EXPECT_NEAR(static_cast<double>(bench.model.image_number() - first), 99, 2);
 }
 
+/// As a broker does, which is told of the axis at the start.
+TEST(AxisLoop, CausesAskedForBeforeTheMotorAnswersAreKnownSoonAfter) {
+    Bench bench;
+    const auto finds = [&bench](base::Microseconds within) {
+        std::shared_ptr<const Findings> found;
+        for (const auto end = bench.now() + within; bench.now() < end && found == nullptr;) {
+            bench.run(200ms);
+            static_cast<void>(bench.model.image_with_why(bench.now(), &found));
+        }
+        return found != nullptr;
+    };
+    ASSERT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);
+    bench.port.board.link_state = motor::Link::starting;
+    finds(1s);
+    bench.port.board.link_state = motor::Link::up;
+    EXPECT_TRUE(finds(6s));
+
+    Bench other;
+    other.port.board.access_answers = motor::AccessState::failed;
+    std::shared_ptr<const Findings> found;
+    for (int i = 0; i < 10; ++i) {
+        other.run(200ms);
+        static_cast<void>(other.model.image_with_why(other.now(), &found));
+        EXPECT_EQ(found, nullptr);
+    }
+    other.port.board.access_answers = motor::AccessState::done;
+    for (int i = 0; i < 30 && found == nullptr; ++i) {
+        other.run(200ms);
+        static_cast<void>(other.model.image_with_why(other.now(), &found));
+    }
+    EXPECT_NE(found, nullptr) << "what failed is read again";
+}
+
 TEST(AxisLoop, AStopIsDoneWhenTheMotorHasConfirmedIt) {
     for (const gw::Command stop : {gw::Command::stop, gw::Command::safe, gw::Command::hold}) {
         Bench bench;

@@ -105,7 +105,7 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     if (!is_wanted && !model_.wants_motor(wall)) return;
     if (!reader_.is_for_face()) {
         reader_.look_around(controller, image_, now, wall, model_.wants_trend(wall));
-        survey();
+        survey(controller);
     }
     if (is_wanted && wall >= image_.taken + AxisModel::kPeriod) take_image(controller);
 }
@@ -113,17 +113,20 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
 /// For clients that ask for the cause of a standstill. An order waits while a register is read, so this is
 /// done rarely: again when the shaft has stopped or the error bits have changed. For a drive of another
 /// family its driver has the data.
-void AxisLoop::survey() {
+void AxisLoop::survey(gateway::Controller& controller) {
     constexpr base::Milliseconds kBetween{20'000};
     constexpr base::Milliseconds kAtRest{2'000};
+    constexpr base::Milliseconds kAfterFailure{2'000};
     if (auto survey = reader_.take_survey();
         survey && !model_.survey_shelf().put(std::make_shared<const Survey>(std::move(*survey))))
         surveyed_ = kLongAgo;
+    if (reader_.take_survey_failure()) surveyed_ = wall_ - kBetween + kAfterFailure;
     if (image_.moves) moved_ = wall_;
     const bool has_come_to_rest = moved_ > surveyed_ && wall_ - moved_ >= kAtRest;
     const std::uint32_t errors = errors_of(image_);
     const bool is_due = wall_ - surveyed_ >= kBetween || has_come_to_rest || errors != surveyed_errors_;
     if (!is_due || reader_.surveys() || !model_.wants_survey(wall_)) return;
+    if (!motor::link_is_usable(controller.motor().link())) return;
     if (image_.number == 0 || image_.setting(gw::Setting::motor_kind) != 0) return;
     surveyed_ = wall_;
     surveyed_errors_ = errors;

@@ -51,7 +51,7 @@ void MotorReader::forget() {
     item_.reset();
     surveyed_ = nullptr;
     to_survey_.clear();
-    survey_ended_ = false;
+    survey_ended_ = survey_failed_ = false;
     asked_ = false;
     ended_ = {};
     hurried_ = kHurried;
@@ -202,7 +202,10 @@ void MotorReader::look_around(gateway::Controller& controller, AxisImage& image,
         case State::failed:
             item_.reset();
             surveyed_ = nullptr;
-            if (!is_item) to_survey_.clear();
+            if (!is_item) {
+                to_survey_.clear();
+                survey_failed_ = true;
+            }
             return;
         case State::done:
             return is_item ? note_item(image, wall) : note_surveyed(wall);

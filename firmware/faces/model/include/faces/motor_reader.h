@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "faces/image.h"
@@ -36,6 +37,8 @@ class MotorReader {
     bool surveys() const { return !to_survey_.empty(); }
     /// Returns the completed survey.
     std::optional<Survey> take_survey();
+    /// The survey was given up since the last call: a register could not be read.
+    bool take_survey_failure() { return std::exchange(survey_failed_, false); }
     bool is_for_face() const { return wanted_ && !item_ && surveyed_ == nullptr; }
     bool is_idle() const { return !wanted_; }
     /// The motor has a new driver.
@@ -72,6 +75,7 @@ class MotorReader {
     std::size_t before_left_ = 0;                        ///< of to_survey_, for Survey::before
     Survey survey_;
     bool survey_ended_ = false;
+    bool survey_failed_ = false;
     unsigned turn_ = 0;
     unsigned other_ = static_cast<unsigned>(MotorItem::error_word);  ///< of the items read in turns
     unsigned hurried_ = kHurried;                                    ///< remaining reads of the first pass
