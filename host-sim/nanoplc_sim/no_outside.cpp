@@ -15,9 +15,8 @@ class Nothing final : public Outside {
 std::unique_ptr<Outside> open_outside(const RunOptions& options, const Program&) {
     if (options.realtime || options.flash) {
         throw InputError(
-            "nanoplc-sim: the one that tools/demo builds has neither --realtime nor --flash; `cmake --preset "
-            "release` "
-            "and `cmake --build --preset release` build the whole one");
+            "nanoplc-sim: the one that tools/demo builds has neither --realtime nor --flash; "
+            "`cmake --preset release` and `cmake --build --preset release` build the whole one");
     }
     return std::make_unique<Nothing>();
 }

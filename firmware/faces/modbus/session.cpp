@@ -110,7 +110,7 @@ std::optional<Command> Unit::due(base::Instant now) {
     if (settings.tell)
         settings.tell(model.name(), fmt::format("{}, which operated last, {}: {}", master_name, how,
                                                 stops ? "stop" : "safe"));
-    return Command::of(settings.on_silence == Silence::stop ? gw::Command::stop : gw::Command::safe, now);
+    return Command::of(stops ? gw::Command::stop : gw::Command::safe, now);
 }
 
 Session::Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell)

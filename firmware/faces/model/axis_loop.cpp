@@ -113,7 +113,7 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
 /// For clients that ask for the cause of a standstill. An order waits while a register is read, so this is
 /// done rarely: again when the shaft has stopped or the error bits have changed. For a drive of another
 /// family its driver has the data.
-void AxisLoop::survey(gateway::Controller& controller) {
+void AxisLoop::survey(const gateway::Controller& controller) {
     constexpr base::Milliseconds kBetween{20'000};
     constexpr base::Milliseconds kAtRest{2'000};
     constexpr base::Milliseconds kAfterFailure{2'000};

@@ -45,7 +45,7 @@ class AxisLoop {
     using Work = CommandDesk::Work;
 
     void look_at_control(const gateway::Controller& controller);
-    void survey(gateway::Controller& controller);
+    void survey(const gateway::Controller& controller);
     void let_go(gateway::Controller& controller);
     void look_for_stops(gateway::Controller& controller);
     void take_stops(gateway::Controller& controller);
