@@ -145,13 +145,16 @@ class Served(service_case.ServiceCase):
 
     def test_a_port_that_is_taken_stops_no_axis(self):
         self.plug_in()
-        with socket.create_server(("127.0.0.1", 0)) as taken:
-            place = f"127.0.0.1:{taken.getsockname()[1]}"
-            config = self.write(self.axis(table=self.table), service=f'[metrics]\nlisten = "{place}"\n[modbus]\nlisten = "tcp:{place}"')
+        with socket.create_server(("127.0.0.1", 0)) as one, socket.create_server(("127.0.0.1", 0)) as other:
+            metrics, modbus = (f"127.0.0.1:{taken.getsockname()[1]}" for taken in (one, other))
+            config = self.write(
+                self.axis(table=self.table),
+                service=f'[metrics]\nlisten = "{metrics}"\n[modbus]\nlisten = "tcp:{modbus}"',
+            )
             service = self.start(config)
             self.until(lambda: service.said().count("tries again") == 2, service)
             self.moves()
-        self.until(lambda: "served at" in service.said() or "listens at" in service.said(), service)
+        self.until(lambda: "served at" in service.said() and "listens at" in service.said(), service)
         self.moves()
 
     def test_mistakes_are_named_and_the_place_is_told(self):
