@@ -15,9 +15,6 @@ set(NPLC_DEMO_sim_motor_stage "^motor_")
 set(NPLC_DEMO_protocol "^(fastmac|flexmac|mactalk|modbus_pdu|modbus_rtu)\\.cpp$")
 set(NPLC_DEMO_seqc "explanation_texts|^(compile\\.cpp$|compiler/|diagnostics/explanations\\.cpp$|language/|lowering/|symbols/)|^report/(describe|line_time|listing|machine|render_all|set_points_text|table_report|table_text|written_text)\\.cpp$")
 
-# Names in these collide with those of their neighbours.
-set(NPLC_DEMO_ALONE "^([a-z]+/)?(claims|constants|fields_small|jvl_family|mac800|machine|motor_memory|parse_sequences|plant|scale|settings_manager|standstill|titles_small|write)\\.cpp$")
-
 # nplc_demo_part(MODULE SOURCES)   reduces the module's list of files to those that are needed
 function(nplc_demo_part name sources)
   set(needed ${${sources}})
@@ -25,6 +22,4 @@ function(nplc_demo_part name sources)
     list(FILTER needed INCLUDE REGEX "${NPLC_DEMO_${name}}")
   endif()
   set(${sources} ${needed} PARENT_SCOPE)
-  list(FILTER needed INCLUDE REGEX "${NPLC_DEMO_ALONE}")
-  set_source_files_properties(${needed} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -93,6 +93,12 @@ if(NPLC_COVERAGE)
   set(NPLC_CORE_COVERAGE --coverage -O0 -fprofile-update=atomic)
 endif()
 
+# The core is compiled file by file for microcontrollers, with the sanitizers, and where each file's lines or branches count.
+set(NPLC_CORE_TOGETHER ON)
+if(NOT NPLC_HOSTED OR NPLC_SANITIZE OR NPLC_COVERAGE OR NPLC_FUZZ)
+  set(NPLC_CORE_TOGETHER OFF)
+endif()
+
 # Whole machines run for minutes of virtual time in the tests: what they consist of is optimised with the sanitizers too.
 if(NPLC_SANITIZE)
   set(NPLC_BUSY_OPTIONS -O2)
@@ -103,10 +109,19 @@ if(NPLC_DEMO)
   include(NplcDemo)
 endif()
 
+# Files of the core, and with NPLC_DEMO of any module, with names that collide with their neighbours'; and families.cpp, which
+# tests/families has in another form.
+set(NPLC_ALONE "^([a-z]+/)?(claims|constants|families|fields_small|jvl_family|mac800|machine|midi_can_link|midi_family|motor_memory|parse_sequences|plant|scale|settings_manager|standstill|titles_small|write)\\.cpp$")
+
 function(_nplc_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "CORE" "" "SOURCES;DEPENDS;OPTIONS" ${ARGN})
   if(NPLC_DEMO)
     nplc_demo_part(${name} ARG_SOURCES)
+  endif()
+  if(NPLC_DEMO OR ARG_CORE)
+    set(alone ${ARG_SOURCES})
+    list(FILTER alone INCLUDE REGEX "${NPLC_ALONE}")
+    set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
   if(ARG_SOURCES)
     add_library(nplc_${name} STATIC ${ARG_SOURCES})
@@ -121,10 +136,10 @@ function(_nplc_module name)
 endfunction()
 
 function(nplc_core_module name)
-  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti ${NPLC_BUSY_OPTIONS} ${NPLC_CORE_COVERAGE})
+  _nplc_module(${name} CORE ${ARGN} OPTIONS -fno-exceptions -fno-rtti ${NPLC_BUSY_OPTIONS} ${NPLC_CORE_COVERAGE})
   set_property(GLOBAL APPEND PROPERTY NPLC_CORE_MODULES nplc_${name})
   get_target_property(type nplc_${name} TYPE)
-  if(NPLC_DEMO AND type STREQUAL "STATIC_LIBRARY")
+  if(NPLC_CORE_TOGETHER AND type STREQUAL "STATIC_LIBRARY")
     nplc_compile_together(nplc_${name})
   endif()
 endfunction()
@@ -158,8 +173,7 @@ if(NPLC_HOSTED AND NPLC_COMMON_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
             <span> <string> <string_view> <utility> <vector>)
 endif()
 
-# Files that are small and include much cost more to read than to compile. The core is compiled file by file, as it is for
-# microcontrollers.
+# Files that are small and include much cost more to read than to compile.
 function(nplc_compile_together target)
   if(NPLC_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${NPLC_TOGETHER})
