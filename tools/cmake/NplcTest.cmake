@@ -1,9 +1,10 @@
-# nplc_test(NAME SOURCES ... DEPENDS ... [PART part] [FAST])
+# nplc_test(NAME SOURCES ... DEPENDS ... [PART part] [FAST] [OWN_HEADERS])
 #
 # Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case; with sanitizers, where
 # each start takes long, all of them as two tests NAME.1 and NAME.2. PART is the part of the full run (tests/README.md) that it
 # belongs to: `gate` if none is said, and `realtime` in its place where the sources depend on when something happens. Tests are
 # optimised little, which halves the time to compile them; FAST ones, which compute much themselves, are optimised as the rest is.
+# OWN_HEADERS: without the precompiled headers, as other options of the compiler ask for.
 # Built for another processor they are no tests of CTest's: tests/emulated runs them.
 
 # Parts run a test a core. What builds, or must not share the machine, says PROCESSORS ${NPLC_ALL_PLACES}.
@@ -56,26 +57,29 @@ if(NOT GTest_FOUND)
 endif()
 include(GoogleTest)
 
-# What nearly every test includes, compiled once.
-file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/tests/common_headers.cpp" CONTENT "")
-add_library(nplc_test_headers OBJECT "${CMAKE_BINARY_DIR}/tests/common_headers.cpp")
-target_link_libraries(nplc_test_headers PRIVATE nplc_options GTest::gtest)
-target_precompile_headers(nplc_test_headers PRIVATE <gtest/gtest.h> <algorithm> <array> <chrono> <cstdint> <deque>
-  <functional> <map> <optional> <set> <span> <string> <string_view> <vector>)
-target_compile_options(nplc_test_headers PRIVATE $<$<CONFIG:Release>:-Og> -fpch-preprocess)
+# What nearly every test includes, compiled once for each optimisation.
+set(headers <gtest/gtest.h> <algorithm> <array> <chrono> <cstdint> <deque>
+    <functional> <map> <optional> <set> <span> <string> <string_view> <vector>)
+set(NPLC_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
+nplc_common_headers(test_headers LIBRARIES GTest::gtest HEADERS ${headers} OPTIONS ${NPLC_TEST_OPTIONS})
+nplc_common_headers(fast_test_headers LIBRARIES GTest::gtest HEADERS ${headers})
 
 add_custom_target(unit_tests)
 
 function(nplc_test name)
-  cmake_parse_arguments(ARG "FAST" "PART" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "FAST;OWN_HEADERS" "PART" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_PART)
     set(ARG_PART gate)
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} nplc_options GTest::gtest_main)
+  set(headers fast_test_headers)
   if(NOT ARG_FAST)
-    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-Og> -fpch-preprocess)
-    target_precompile_headers(test_${name} REUSE_FROM nplc_test_headers)
+    target_compile_options(test_${name} PRIVATE ${NPLC_TEST_OPTIONS})
+    set(headers test_headers)
+  endif()
+  if(NOT ARG_OWN_HEADERS)
+    nplc_use_common_headers(test_${name} ${headers})
   endif()
   nplc_compile_together(test_${name})
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
