@@ -64,6 +64,13 @@ set(NPLC_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
 nplc_common_headers(test_headers LIBRARIES GTest::gtest HEADERS ${headers} OPTIONS ${NPLC_TEST_OPTIONS})
 nplc_common_headers(fast_test_headers LIBRARIES GTest::gtest HEADERS ${headers})
 
+# gold links a test in half the time. What is shipped is linked with the system's own linker.
+find_program(NPLC_GOLD ld.gold DOC "Linker of the tests")
+set(NPLC_TEST_LINKER "")
+if(NPLC_GOLD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CROSSCOMPILING AND NOT NPLC_SANITIZE)
+  set(NPLC_TEST_LINKER -fuse-ld=gold)
+endif()
+
 add_custom_target(unit_tests)
 
 function(nplc_test name)
@@ -73,6 +80,7 @@ function(nplc_test name)
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} nplc_options GTest::gtest_main)
+  target_link_options(test_${name} PRIVATE ${NPLC_TEST_LINKER})
   set(headers fast_test_headers)
   if(NOT ARG_FAST)
     target_compile_options(test_${name} PRIVATE ${NPLC_TEST_OPTIONS})
