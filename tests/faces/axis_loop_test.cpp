@@ -383,6 +383,47 @@ TEST(AxisLoop, KnowsTheMotorsValuesAndHowOldTheyAre) {
 }
 
 /// The line is the sequence's and the persons': one register every 100 ms, and none when nobody asks.
+/// Another motor may answer next, or the same one after its power was off.
+TEST(AxisLoop, OfALostMotorNothingIsGood) {
+    static constexpr base::Microseconds kLongest{20'000'000};
+    Bench bench;
+    const auto looks = [&bench](base::Microseconds time, const auto& come) {
+        std::shared_ptr<const Findings> why;
+        for (const auto end = bench.now() + time; bench.now() < end;) {
+            bench.run(10ms);
+            const AxisImage image = bench.model.image_with_why(bench.now(), &why);
+            if (come(image, why)) return true;
+        }
+        return false;
+    };
+    const auto knows = [&bench](const AxisImage& image, MotorItem item) {
+        return image.of_motor(item).quality(bench.now(), kLongest) == Quality::good;
+    };
+    const auto knows_all = [&knows](const AxisImage& image, const auto& why) {
+        return why != nullptr && knows(image, MotorItem::mode) && knows(image, MotorItem::target);
+    };
+    ASSERT_TRUE(looks(10s, knows_all));
+    bench.port.board.link_state = motor::Link::down;
+    ASSERT_TRUE(
+        looks(30ms, [](const AxisImage& image, const auto&) { return !image.is_set(gw::kLinkDelivers); }));
+    looks(100ms, [&](const AxisImage& image, const auto&) {
+        for (std::size_t i = 0; i < kMotorItems; ++i) {
+            EXPECT_NE(image.motor[i].quality(bench.now(), kLongest), Quality::good) << i;
+        }
+        EXPECT_EQ(image.of_motor(MotorItem::mode).quality(bench.now(), kLongest), Quality::old);
+        return false;
+    });
+    bench.port.board.access_answers = motor::AccessState::failed;
+    bench.port.board.link_state = motor::Link::up;
+    EXPECT_FALSE(looks(1s, [&](const AxisImage& image, const auto& why) {
+        return why != nullptr && image.is_set(gw::kLinkDelivers);
+    })) << "it was not read since";
+    EXPECT_FALSE(
+        looks(1s, [&](const AxisImage& image, const auto&) { return knows(image, MotorItem::mode); }));
+    bench.port.board.access_answers = motor::AccessState::done;
+    EXPECT_TRUE(looks(10s, knows_all));
+}
+
 TEST(AxisLoop, ReadsTheMotorSeldom) {
     Bench bench;
     static_cast<void>(bench.image());

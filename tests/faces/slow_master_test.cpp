@@ -115,11 +115,21 @@ TEST(SlowMaster, TheSeldomValuesAreKnownSoonAndHaveMargin) {
             oldest = std::max(oldest, base::Microseconds(image.taken - image.of_motor(item).taken));
     }
     EXPECT_LT(oldest, 8s);
-    machine.port.board.link_state = motor::Link::down;
+    machine.port.board.access_answers = motor::AccessState::failed;
     machine.run(9s);
     EXPECT_TRUE(machine.read(120, 8)) << "valid for more than twice as long as a turn";
     machine.run(12s);
     EXPECT_FALSE(machine.read(120, 8));
+}
+
+TEST(SlowMaster, OfALostMotorNothingIsKnown) {
+    Machine machine;
+    for (int i = 0; i < 40 && !machine.read(120, 8); ++i) machine.run(100ms);
+    ASSERT_TRUE(machine.read(120, 8));
+    machine.port.board.link_state = motor::Link::down;
+    machine.run(50ms);
+    EXPECT_FALSE(machine.read(120, 8));
+    EXPECT_TRUE(machine.read(0, 45)) << "the status is";
 }
 
 }  // namespace

@@ -100,6 +100,8 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     if (motor::link_is_usable(controller.motor().link())) {
         image_.motor_contact = wall;
         image_.had_contact = true;
+    } else {
+        forget_motor();
     }
     const bool is_wanted = model_.is_wanted(wall);
     if (!is_wanted && !model_.wants_motor(wall)) return;
@@ -131,6 +133,16 @@ void AxisLoop::survey(const gateway::Controller& controller) {
     surveyed_ = wall_;
     surveyed_errors_ = errors;
     reader_.begin_survey(model_of(image_));
+}
+
+/// Of a motor that is lost nothing is known any more: another one may answer next, or the same one after its
+/// power was off.
+void AxisLoop::forget_motor() {
+    for (MotorValue& value : image_.motor) value.is_old = true;
+    image_.moves = false;
+    surveyed_ = kLongAgo;
+    if (model_.survey_shelf().last().taken != base::Instant{})
+        static_cast<void>(model_.survey_shelf().put(std::make_shared<const Survey>()));
 }
 
 void AxisLoop::restarted() {

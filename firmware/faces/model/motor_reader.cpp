@@ -202,7 +202,7 @@ void MotorReader::look_around(gateway::Controller& controller, AxisImage& image,
         case State::failed:
             item_.reset();
             surveyed_ = nullptr;
-            if (!is_item) {
+            if (!is_item || (surveys() && !motor::link_is_usable(controller.motor().link()))) {
                 to_survey_.clear();
                 survey_failed_ = true;
             }

@@ -66,7 +66,8 @@ Json motor_values(const AxisImage& image, const AxisImage* before, base::Instant
         const bool is_good = value.quality(now, limit_of(item)) == faces::Quality::good;
         if (before != nullptr && before->of_motor(item).is_known &&
             before->of_motor(item).taken == value.taken) {
-            const bool was_good = value.quality(before->taken, limit_of(item)) == faces::Quality::good;
+            const bool was_good =
+                before->of_motor(item).quality(before->taken, limit_of(item)) == faces::Quality::good;
             if (is_good || !was_good) continue;
         }
         const std::string_view name = name_of(item, image);

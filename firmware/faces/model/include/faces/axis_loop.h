@@ -46,6 +46,7 @@ class AxisLoop {
 
     void look_at_control(const gateway::Controller& controller);
     void survey(const gateway::Controller& controller);
+    void forget_motor();
     void let_go(gateway::Controller& controller);
     void look_for_stops(gateway::Controller& controller);
     void take_stops(gateway::Controller& controller);

@@ -45,10 +45,11 @@ struct MotorValue {
     bool is_known = false;
     std::int32_t value = 0;
     base::Instant taken{};
+    bool is_old = false;  ///< the link to the motor was lost since
 
     Quality quality(base::Instant now, base::Microseconds limit) const {
         if (!is_known) return Quality::unknown;
-        return now - taken > limit ? Quality::old : Quality::good;
+        return is_old || now - taken > limit ? Quality::old : Quality::good;
     }
 };
 
