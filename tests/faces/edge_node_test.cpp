@@ -206,6 +206,24 @@ TEST(Attempts, TwoClientsOfOneNameTryEverMoreSeldomAndSaySo) {
     EXPECT_TRUE(attempts.is_due(now + 64s));
 }
 
+/// A command, and be it a stop, must not wait half a minute for a broker that was halted or started anew.
+TEST(Attempts, ABrokerThatIsAwayIsAskedEveryFewSeconds) {
+    const auto pauses = [](bool is_refused) {
+        Attempts attempts("n");
+        base::Instant now{};
+        std::vector<base::Microseconds> all;
+        for (int i = 0; i < 7; ++i) {
+            static_cast<void>(attempts.lost(now, "why", is_refused));
+            const base::Instant begun = now;
+            while (!attempts.is_due(now)) now += 100ms;
+            all.push_back(now - begun);
+        }
+        return all;
+    };
+    EXPECT_EQ(pauses(false), (std::vector<base::Microseconds>{1s, 2s, 4s, 4s, 4s, 4s, 4s}));
+    EXPECT_EQ(pauses(true), (std::vector<base::Microseconds>{1s, 2s, 4s, 8s, 16s, 30s, 30s}));
+}
+
 TEST(Attempts, ABrokerThatIsAwayIsToldOnceForEachReason) {
     Attempts attempts("n");
     EXPECT_EQ(attempts.lost(base::Instant{}, "refused"), "refused");

@@ -12,10 +12,12 @@ namespace nplc::mqtt {
 
 /// When to connect to a broker again, and what is told of it: each reason once. Connections that last shorter
 /// than kSteady, kShortOnes of them one after the other, are told once and made ever more seldom: most often
-/// another client has the same name, and each throws the other one out.
+/// another client has the same name, and each throws the other one out. A broker that is not there or silent
+/// is asked again at least every kLongestAway, one that refuses or throws out ever more seldom.
 class Attempts {
   public:
     static constexpr base::Milliseconds kFirstPause{1'000};
+    static constexpr base::Milliseconds kLongestAway{4'000};
     static constexpr base::Milliseconds kLongestPause{30'000};
     static constexpr base::Milliseconds kSteady{60'000};
     static constexpr int kShortOnes = 3;
@@ -42,12 +44,15 @@ class Attempts {
         pause_ = kFirstPause;
         return is_news;
     }
-    /// It is lost, or was not made, for the reason `text`. What is to be told; empty: nothing.
-    std::string lost(base::Instant now, std::string text) {
+    /// It is lost, or was not made, for the reason `text`; `is_refused`: the broker answered, and did not
+    /// take us. What is to be told; empty: nothing.
+    std::string lost(base::Instant now, std::string text, bool is_refused = false) {
         if (made_ && now - *made_ <= kSteady) ++short_ones_;
         made_.reset();
-        next_ = now + pause_;
-        pause_ = std::min(pause_ * 2, kLongestPause);
+        const bool is_away = !is_refused && short_ones_ < kShortOnes;
+        const base::Milliseconds longest = is_away ? kLongestAway : kLongestPause;
+        next_ = now + std::min(pause_, longest);
+        pause_ = std::min(pause_ * 2, longest);
         if (short_ones_ >= kShortOnes)
             text += fmt::format(
                 "; again and again: is there another client {}? `group` and `node` must be its own", name_);

@@ -134,7 +134,8 @@ void Client::Loop::lose(const std::string& why) {
     is_subscribed_ = false;
     const std::string text = attempts_.lost(
         clock_.now(),
-        fmt::format("no connection to {}:{}: {}; tries again", options_.host, options_.port, why));
+        fmt::format("no connection to {}:{}: {}; tries again", options_.host, options_.port, why),
+        !refusal_.empty());
     if (!text.empty()) tell(true, text);
 }
 
