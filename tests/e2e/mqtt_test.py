@@ -420,6 +420,20 @@ class Served(service_case.ServiceCase, Case):
                                  check=True)
         self.assertIn("MQTT goes out to cell4:8883 with TLS, as nanoplc/n, and takes stop\n", checked.stdout)
 
+    def test_clear_text_is_warned_of(self):
+        with open(self.path("password"), "w", encoding="utf-8") as file:
+            file.write("secret\n")
+        password = f'user = "u"\npassword_file = "{self.path("password")}"\n'
+        for broker, more, said in (
+                ("cell4:8883", "", ["mqtt.broker: warning: port 8883 is TLS's, and without a ca_file clear text goes to it; name a ca_file"]),
+                ("127.0.0.1:8883", password, ["mqtt.broker: warning: port 8883 is TLS's, and without a ca_file clear text goes to it, the password "
+                                              "with it; name a ca_file"]),
+                ("cell4:1883", password, ["mqtt.password_file: warning: without a ca_file the password goes to cell4 in clear text; name a ca_file"]),
+                ("cell4:1883", "", []), ("127.0.0.1:1883", password, []), ("[::1]:1883", password, []),
+                ("cell4:8883", f'{password}ca_file = "{self.path("password")}"\n', [])):
+            code, lines = self.check(f'[mqtt]\nbroker = "{broker}"\nnode = "n"\n{more}{self.axis()}', "--no-devices")
+            self.assertEqual((code, [line.split(": ", 1)[1] for line in lines]), (0, said), broker)
+
 
 if __name__ == "__main__":
     (SIM, service_case.NANOPLC, service_case.MACSIM, service_case.NANOCTL, service_case.SEQC, SHUTTLE,

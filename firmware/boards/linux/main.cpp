@@ -107,6 +107,10 @@ int check(const Options& options) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
+    if (auto warning = clear_text(loaded.config.mqtt)) {
+        warning->text = "warning: " + warning->text;
+        print(options.file, {*warning});
+    }
     for (const std::string& note : found.notes) fmt::print("{}\n", note);
     for (const std::string& line : faces_in_words(loaded.config)) fmt::print("{}\n", line);
     const std::size_t axes = loaded.config.axes.size();

@@ -10,6 +10,7 @@
 #include "broker/session.h"
 #include "mqtt/client.h"
 #include "orders/order.h"
+#include "panel/web_server.h"
 
 namespace nplc::boards {
 namespace {
@@ -160,6 +161,23 @@ MqttConfig read_mqtt(Section& root, Findings& findings) {
                          "asks for MQTT, which this program was built without (it needs libmosquitto); "
                          "write \"none\"");
     return config;
+}
+
+std::optional<Mistake> clear_text(const MqttConfig& config) {
+    constexpr std::uint16_t kTlsPort = 8'883;
+    const mqtt::Options& options = config.options;
+    if (!config.broker.is_there() || !options.ca_file.empty()) return std::nullopt;
+    const bool has_password = !options.password_file.empty();
+    if (options.port == kTlsPort)
+        return Mistake{
+            config.broker.line, config.broker.key,
+            fmt::format("port {} is TLS's, and without a ca_file clear text goes to it{}; name a ca_file",
+                        kTlsPort, has_password ? ", the password with it" : "")};
+    if (has_password && !panel::is_loopback(options.host))
+        return Mistake{config.password_file.line, config.password_file.key,
+                       fmt::format("without a ca_file the password goes to {} in clear text; name a ca_file",
+                                   options.host)};
+    return std::nullopt;
 }
 
 }  // namespace nplc::boards

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "mqtt/options.h"
 #include "section.h"
 
@@ -13,6 +15,8 @@ struct MqttConfig {
     mqtt::Options options{};
 };
 MqttConfig read_mqtt(Section& root, Findings& findings);
+/// What goes over the network in clear text, and most likely is not to.
+std::optional<Mistake> clear_text(const MqttConfig& config);
 
 /// "run", "stop", ...: the commands that can be allowed over MQTT.
 std::vector<std::string> mqtt_command_names();
