@@ -1,6 +1,7 @@
 #include "gateway/modbus_slave.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/bytes.h"
 #include "registers/layout.h"
@@ -18,61 +19,76 @@ namespace {
 /// A value of the gateway, as it is laid out in input registers.
 struct Row {
     std::uint8_t address;
-    std::uint8_t words;
     std::uint8_t reg;
-    std::uint8_t shift;
-    std::uint32_t mask;
+    std::uint8_t shift = 0;
+    std::uint8_t mask = 0;  ///< 0: all of it
 };
-constexpr std::uint32_t kAll = 0xFFFF'FFFF;
+constexpr std::uint8_t kFirstOfTwo = 18;  ///< values from here on have two words
 constexpr Row kRows[] = {
-    {map::kRunState, 1, STATUS, 0, 7},
-    {3, 1, STEP, 0, kAll},
-    {4, 1, COUNTER, 0, kAll},
-    {5, 1, INPUTS, 0, 0x3F},
-    {6, 1, INPUTS, 8, 0x3F},
-    {7, 1, OUTPUTS, 0, 0x0F},
-    {8, 1, OUTPUTS, 8, 0x0F},
-    {9, 1, SAFE_REASON, 0, kAll},
-    {14, 1, LINK, 0, kAll},
-    {18, 2, TIMER, 0, kAll},
-    {20, 2, LOG_COUNT, 0, kAll},
-    {22, 2, UPTIME, 0, kAll},
-    {24, 2, SCANS, 0, kAll},
-    {26, 2, SCAN_TIME, 0, kAll},
-    {28, 2, SCAN_WORST, 0, kAll},
-    {30, 2, LINK_LOSSES, 0, kAll},
-    {32, 2, RESENT, 0, kAll},
-    {34, 2, ORDERS, 0, kAll},
-    {36, 2, DISCARDED, 0, kAll},
-    {38, 2, TABLE_CRC, 0, kAll},
-    {46, 2, POLL_WORST, 0, kAll},
-    {map::kLatePolls, 2, LATE_POLLS, 0, kAll},
+    {map::kRunState, STATUS, 0, 7},
+    {3, STEP},
+    {4, COUNTER},
+    {5, INPUTS, 0, 0x3F},
+    {6, INPUTS, 8, 0x3F},
+    {7, OUTPUTS, 0, 0x0F},
+    {8, OUTPUTS, 8, 0x0F},
+    {9, SAFE_REASON},
+    {14, LINK},
+    {kFirstOfTwo, TIMER},
+    {20, LOG_COUNT},
+    {22, UPTIME},
+    {24, SCANS},
+    {26, SCAN_TIME},
+    {28, SCAN_WORST},
+    {30, LINK_LOSSES},
+    {32, RESENT},
+    {34, ORDERS},
+    {36, DISCARDED},
+    {38, TABLE_CRC},
+    {46, POLL_WORST},
+    {map::kLatePolls, LATE_POLLS},
 };
 
-/// Bits of STATUS that discrete inputs show; 0: another condition.
-constexpr std::uint32_t kStatusOfDiscrete[map::kDiscretes] = {0,
-                                                              0,
-                                                              0,
-                                                              0,
-                                                              kSafe,
-                                                              kMotorError,
-                                                              kInPosition,
-                                                              kLinkDelivers,
-                                                              kForcedInputs | kForcedOutputs,
-                                                              kAtBreakpoint,
-                                                              kTable,
-                                                              kEnabled,
-                                                              StatusBit::kUpload,
-                                                              kSettingsDiffer,
-                                                              StatusBit::kCannotGoOn,
-                                                              StatusBit::kStopUnconfirmed};
+constexpr std::uint8_t bit_number(std::uint32_t bit) {
+    return static_cast<std::uint8_t>(std::countr_zero(bit));
+}
+/// Bits of STATUS that discrete inputs show, from kIsSafe on; of two forced ones the first.
+constexpr std::uint8_t kStatusOfDiscrete[map::kDiscretes - map::kIsSafe] = {
+    bit_number(kSafe),
+    bit_number(kMotorError),
+    bit_number(kInPosition),
+    bit_number(kLinkDelivers),
+    bit_number(kForcedInputs),
+    bit_number(kAtBreakpoint),
+    bit_number(kTable),
+    bit_number(kEnabled),
+    bit_number(StatusBit::kUpload),
+    bit_number(kSettingsDiffer),
+    bit_number(StatusBit::kCannotGoOn),
+    bit_number(StatusBit::kStopUnconfirmed)};
 
 constexpr std::uint8_t kCoilCommands[] = {1, 2, 3, 6, 5, 4};  ///< run, stop, safe, hold, step, scan
+
+constexpr std::size_t kHead = 5;  ///< of a write: function, address, count or value
 
 constexpr bool is_stop(std::uint32_t command) {
     return command == static_cast<std::uint32_t>(Command::stop) ||
            command == static_cast<std::uint32_t>(Command::safe) ||
            command == static_cast<std::uint32_t>(Command::hold);
+}
+
+/// The stop, safe or hold that a request writes; 0: none.
+std::uint8_t stop_in(const protocol::modbus::Request& request) {
+    if (!request.writes || request.address > map::kHold) return 0;
+    if (request.space == Space::holding_register) {
+        const std::uint16_t value = request.word(0);
+        return request.address == map::kCommand && is_stop(value) ? static_cast<std::uint8_t>(value) : 0;
+    }
+    for (unsigned coil = std::max<unsigned>(request.address, map::kStop); coil <= map::kHold; ++coil) {
+        if (coil < request.address + request.count && request.bit(coil - request.address))
+            return kCoilCommands[coil];
+    }
+    return 0;
 }
 
 Exception exception_of(Result result) {
@@ -82,9 +98,32 @@ Exception exception_of(Result result) {
 
 }  // namespace
 
+bool StopFinder::take(std::uint8_t byte, std::uint8_t unit) {
+    constexpr std::size_t kAround = 3;
+    std::copy(last_.begin() + 1, last_.end(), last_.begin());
+    last_.back() = byte;
+    for (std::size_t size = kHead + kAround; size <= last_.size(); ++size) {
+        const auto frame = std::span(last_).last(size);
+        if (frame[0] != unit && frame[0] != protocol::modbus::kBroadcast) continue;
+        const auto [request, exception] = protocol::modbus::decode(frame.subspan(1, size - kAround));
+        if (exception != Exception::none) continue;
+        const std::uint8_t stop = stop_in(request);
+        // The CRC of a frame with its CRC is 0.
+        if (stop == 0 || protocol::modbus::crc16(frame) != 0) continue;
+        command_ = stop;
+        return true;
+    }
+    return false;
+}
+
 bool ModbusSlave::take(std::uint8_t byte, std::uint8_t unit, base::Instant now) {
     heard_ = now;
-    return reader_.take(byte) && reader_.unit() == unit;
+    if (reader_.take(byte)) {
+        if (reader_.unit() == unit) return true;
+        unit_ = protocol::modbus::kBroadcast;
+        drop();
+    }
+    return finder_.take(byte, unit);
 }
 
 void ModbusSlave::damaged(base::Instant now) {
@@ -120,6 +159,7 @@ ModbusSlave::Need ModbusSlave::end_answer() {
     const std::uint16_t crc = protocol::modbus::crc16(std::span(out_).first(size_));
     put(static_cast<std::uint8_t>(crc));
     put(static_cast<std::uint8_t>(crc >> 8));
+    if (unit_ == protocol::modbus::kBroadcast) drop();
     return Need::nothing;
 }
 
@@ -129,18 +169,22 @@ ModbusSlave::Need ModbusSlave::refuse_with(Exception exception) {
     return end_answer();
 }
 
-/// Copies the request's bytes, which the reader keeps until the next one.
+/// begin() has put the bytes there: the reader keeps them until the next character only.
 ModbusSlave::Need ModbusSlave::echo() {
-    constexpr std::size_t kEchoed = 5;
-    begin_answer(request_.function);
-    for (const std::uint8_t byte : reader_.pdu().first(kEchoed).subspan(1)) put(byte);
+    size_ = 1 + kHead;
+    sent_ = 0;
     return end_answer();
 }
 
 ModbusSlave::Need ModbusSlave::begin(base::Instant now) {
     drop();
-    unit_ = reader_.unit();
-    is_handshake_ = false;
+    kind_ = Kind::plain;
+    if (const std::uint8_t stop = finder_.take_command(); stop != 0) {
+        kind_ = Kind::found;
+        return command(stop);
+    }
+    unit_ = out_[0] = reader_.unit();
+    std::copy_n(reader_.pdu().data(), kHead, out_.begin() + 1);
     const auto decoded = protocol::modbus::decode(reader_.pdu());
     request_ = decoded.request;
     if (decoded.exception != Exception::none) return refuse_with(decoded.exception);
@@ -151,7 +195,8 @@ ModbusSlave::Need ModbusSlave::begin(base::Instant now) {
         return ask_motor(false, registers::P_IST, 0);
     }
     if (!request_.writes) return read(now);
-    return request_.space == Space::coil ? write_coils() : write_holding(now);
+    const std::uint8_t stop = stop_in(request_);
+    return request_.space == Space::coil ? write_coils(stop) : write_holding(stop, now);
 }
 
 std::uint32_t ModbusSlave::own(std::uint8_t reg, base::Instant now) {
@@ -165,8 +210,9 @@ std::uint16_t ModbusSlave::status_bits(base::Instant now) {
     const RunState state = run_state_of(status);
     unsigned bits = 0;
     for (unsigned i = map::kIsSafe; i < map::kDiscretes; ++i) {
-        if ((status & kStatusOfDiscrete[i]) != 0) bits |= 1U << i;
+        bits |= (status >> kStatusOfDiscrete[i - map::kIsSafe] & 1U) << i;
     }
+    if ((status & kForcedOutputs) != 0) bits |= 1U << map::kForced;
     constexpr std::uint32_t kNeeded = kTable | kEnabled | kLinkDelivers;
     if (state == RunState::stopped && (status & kNeeded) == kNeeded) bits |= 1U << map::kReady;
     if (state == RunState::running) bits |= 1U << map::kRunning;
@@ -215,16 +261,19 @@ std::uint16_t ModbusSlave::input_word(std::uint16_t address, base::Instant now) 
             break;
     }
     for (const Row& row : kRows) {
-        if (address < row.address || address >= row.address + row.words) continue;
-        const std::uint32_t value = own(row.reg, now) >> row.shift & row.mask;
-        const bool is_high = row.words == 2 && address == row.address;
+        const bool has_two = row.address >= kFirstOfTwo;
+        if (address != row.address && (!has_two || address != row.address + 1)) continue;
+        std::uint32_t value = own(row.reg, now) >> row.shift;
+        if (row.mask != 0) value &= row.mask;
+        const bool is_high = has_two && address == row.address;
         return static_cast<std::uint16_t>(is_high ? value >> 16 : value);
     }
     return 0;
 }
 
 ModbusSlave::Need ModbusSlave::read(base::Instant now) {
-    constexpr std::uint16_t kEnds[] = {map::kResetError, map::kDiscretes, map::kLatePolls + 2, map::kRecipe};
+    static constexpr std::uint8_t kEnds[] = {map::kResetError, map::kDiscretes, map::kLatePolls + 2,
+                                             map::kRecipe};
     constexpr std::uint16_t kNothing = map::kImageAge + 1;  // gap between two rows
     const unsigned end = request_.address + request_.count;
     const bool has_gap =
@@ -233,7 +282,7 @@ ModbusSlave::Need ModbusSlave::read(base::Instant now) {
         return refuse_with(Exception::illegal_address);
     begin_answer(request_.function);
     if (request_.space == Space::coil || request_.space == Space::discrete_input) {
-        const unsigned all = request_.space == Space::coil ? coils_ : status_bits(now);
+        const unsigned all = request_.space == Space::coil ? coils_.on : status_bits(now);
         const unsigned bits = all >> request_.address & ((1U << request_.count) - 1U);
         put(static_cast<std::uint8_t>((request_.count + 7U) / 8U));
         put(static_cast<std::uint8_t>(bits));
@@ -266,48 +315,46 @@ ModbusSlave::Need ModbusSlave::command(std::uint16_t value) {
 }
 
 /// A stop acts on level 1; all other coils act on the change from 0 to 1. One command at a time.
-ModbusSlave::Need ModbusSlave::write_coils() {
+ModbusSlave::Need ModbusSlave::write_coils(std::uint8_t stop) {
     if (request_.address + request_.count > map::kResetError) return refuse_with(Exception::illegal_address);
-    std::uint8_t stop = 0;
     std::uint8_t other = 0;
     for (unsigned i = 0; i < request_.count; ++i) {
         const unsigned coil = request_.address + i;
         const auto bit = static_cast<std::uint8_t>(1U << coil);
         const bool on = request_.bit(i);
-        const bool rises = on && (coils_ & bit) == 0 && (coils_were_off_ & bit) != 0;
-        if (!on) coils_were_off_ |= bit;
-        coils_ = static_cast<std::uint8_t>(on ? coils_ | bit : coils_ & ~bit);
+        const bool rises = on && (coils_.on & bit) == 0 && (coils_.were_off & bit) != 0;
+        if (!on) coils_.were_off |= bit;
+        coils_.on = static_cast<std::uint8_t>(on ? coils_.on | bit : coils_.on & ~bit);
         if (coil == map::kAcknowledge) {
             if (on) acknowledged_ = gateway_.log().count();
             continue;
         }
         const std::uint8_t value = kCoilCommands[coil];
-        if (is_stop(value)) {
-            if (on && (stop == 0 || value != static_cast<std::uint8_t>(Command::hold))) stop = value;
-        } else if (rises) {
-            other = value;
-        }
+        if (rises && !is_stop(value)) other = value;
     }
     if (stop != 0) return command(stop);
     return other != 0 ? command(other) : echo();
 }
 
-ModbusSlave::Need ModbusSlave::write_holding(base::Instant now) {
+ModbusSlave::Need ModbusSlave::write_holding(std::uint8_t stop, base::Instant now) {
     if (request_.address + request_.count > map::kRecipe) return refuse_with(Exception::illegal_address);
-    std::optional<std::uint16_t> written[map::kRecipe];
-    for (unsigned i = 0; i < request_.count; ++i) written[request_.address + i] = request_.word(i);
-    if (written[map::kCommand]) command_ = *written[map::kCommand];
-    const auto number = written[map::kCommandNumber];
-    const bool is_new = number && *number != number_ && *number != 0;
-    if (number) number_ = *number;
-    if (number == std::uint16_t{0}) {
-        is_armed_ = true;
-        done_number_ = 0;
+    const unsigned first = request_.address;
+    const auto is_written = [&](unsigned at) { return at >= first && at < first + request_.count; };
+    if (first == map::kCommand) command_ = request_.word(0);
+    bool is_new = false;
+    if (is_written(map::kCommandNumber)) {
+        const std::uint16_t number = request_.word(map::kCommandNumber - first);
+        is_new = number != number_ && number != 0;
+        number_ = number;
+        if (number == 0) {
+            is_armed_ = true;
+            done_number_ = 0;
+        }
     }
-    is_handshake_ = is_new;
-    if (written[map::kCommand] && is_stop(command_)) {
-        is_handshake_ = true;
-        return command(command_);
+    if (is_new) kind_ = Kind::handshake;
+    if (stop != 0) {
+        kind_ = Kind::handshake;
+        return command(stop);
     }
     if (is_new) {
         const bool is_known = command_ >= static_cast<std::uint16_t>(Command::run) &&
@@ -320,8 +367,11 @@ ModbusSlave::Need ModbusSlave::write_holding(base::Instant now) {
                                              : Result::too_late});
         return Need::nothing;
     }
-    for (const auto& [at, reg] : {std::pair{map::kForceInputs, FORCE_IN}, {map::kForceOutputs, FORCE_OUT}}) {
-        if (written[at] && (*written[at] != 0 || own(reg, now) != 0)) return write_own(reg, *written[at]);
+    for (unsigned at = map::kForceInputs; at <= map::kForceOutputs; ++at) {
+        if (!is_written(at)) continue;
+        const std::uint8_t reg = at == map::kForceInputs ? FORCE_IN : FORCE_OUT;
+        const std::uint16_t value = request_.word(at - first);
+        if (value != 0 || own(reg, now) != 0) return write_own(reg, value);
     }
     return echo();
 }
@@ -352,10 +402,11 @@ ModbusSlave::Need ModbusSlave::ask_motor(bool writes, std::uint8_t number, std::
 }
 
 void ModbusSlave::end_write(const PendingResult& outcome) {
+    if (kind_ == Kind::found) return;
     const std::uint32_t word = outcome.word();
     result_ = static_cast<std::uint16_t>(word & 0xFF);
     detail_ = static_cast<std::uint16_t>(word >> 16);
-    if (is_handshake_) {
+    if (kind_ == Kind::handshake) {
         done_number_ = number_;
         echo();
         return;

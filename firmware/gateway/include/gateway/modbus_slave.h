@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "gateway/gateway_registers.h"
 #include "protocol/mactalk.h"
@@ -15,14 +16,30 @@ namespace nplc::gateway {
 #define NPLC_MODBUS 0
 #endif
 
+/// Finds writes of stop, safe and hold in the characters of a line, wherever they begin. Up to four registers
+/// from `command` on.
+class StopFinder {
+  public:
+    /// True: a write for `unit` or for all ends with this character.
+    bool take(std::uint8_t byte, std::uint8_t unit);
+    /// Its command, once; 0: none.
+    std::uint8_t take_command() { return std::exchange(command_, std::uint8_t{0}); }
+
+  private:
+    std::array<std::uint8_t, 17> last_{};
+    std::uint8_t command_ = 0;
+};
+
 /// Modbus RTU on the user port of a board without an operating system, beside MacTalk: a request is answered
 /// in the protocol it was sent in. The slave address is the setting gateway_address; the register map is that
-/// of all boards (registers/modbus_map.h), without scaled values and set-points. Does no I/O.
+/// of all boards (registers/modbus_map.h), without scaled values and set-points. A stop, safe or hold is
+/// found in whatever it is behind, and as a broadcast; then it is carried out without an answer. Does no I/O.
 class ModbusSlave {
   public:
     explicit ModbusSlave(Gateway& gateway, GatewayRegisters& own) : gateway_(gateway), own_(own) {}
 
-    /// Takes a received character. True: a request for `unit` is complete, and begin() must be called.
+    /// Takes a received character. True: a request for `unit` is complete, and begin() must be called. A
+    /// frame for another slave ends the wait for an answer.
     bool take(std::uint8_t byte, std::uint8_t unit, base::Instant now);
     /// The received characters were a MacTalk message: discards them.
     void pass_over() { static_cast<void>(reader_.silence()); }
@@ -72,8 +89,8 @@ class ModbusSlave {
     std::uint16_t input_word(std::uint16_t address, base::Instant now);
     std::uint16_t holding_word(std::uint16_t address, base::Instant now);
     std::uint16_t event_word(std::uint16_t address, base::Instant now);
-    Need write_coils();
-    Need write_holding(base::Instant now);
+    Need write_coils(std::uint8_t stop);
+    Need write_holding(std::uint8_t stop, base::Instant now);
     Need use_window();
     Need ask_motor(bool writes, std::uint8_t number, std::uint32_t value);
     Need command(std::uint16_t value);
@@ -83,14 +100,21 @@ class ModbusSlave {
     GatewayRegisters& own_;
     protocol::modbus::RtuReader reader_;
     Request request_;
-    std::uint8_t unit_ = 0;
-    bool is_handshake_ = false;
+    std::uint8_t unit_ = protocol::modbus::kBroadcast;  ///< who asked; kBroadcast: nobody to be answered
+    enum class Kind : std::uint8_t {
+        plain,
+        handshake,
+        found,  ///< a stop out of order: carried out without an answer
+    } kind_ = Kind::plain;
     base::Instant heard_{};
+    StopFinder finder_;
 
     // As in firmware/faces/modbus: a command is accepted only after a 0 was written.
     bool is_armed_ = false;
-    std::uint8_t coils_ = 0;
-    std::uint8_t coils_were_off_ = 0;
+    struct Coils {
+        std::uint8_t on = 0;
+        std::uint8_t were_off = 0;
+    } coils_;
     std::uint16_t command_ = 0;
     std::uint16_t number_ = 0;
     std::uint16_t done_number_ = 0;
