@@ -7,7 +7,7 @@
 #include "cli_support.h"
 #include "diagnostics/explanations.h"
 #include "diagnostics/reference.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "symbols/commands.h"
 
 namespace nplc::seqc {

@@ -6,7 +6,7 @@
 
 #include "case_file.h"
 #include "language/lexer.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "seqc/format.h"
 #include "support.h"
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "language/names.h"
-#include "language/parser.h"
 #include "sequencer/term.h"
 #include "symbols/motors.h"
 

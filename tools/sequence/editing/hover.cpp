@@ -8,7 +8,6 @@
 #include "editing/completion.h"
 #include "editing/register_text.h"
 #include "language/names.h"
-#include "language/parser.h"
 #include "report/describe.h"
 #include "report/table_report.h"
 #include "report/table_text.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "language/names.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 
 namespace nplc::seqc::analysis {
 namespace {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "language/names.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "registers/details.h"
 #include "registers/mac.h"
 #include "symbols/commands.h"

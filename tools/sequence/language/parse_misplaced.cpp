@@ -8,14 +8,14 @@ namespace nplc::seqc {
 
 /// IF (NOT Warm FOR 1 s) OR Rain THEN; IF FOR 200 ms Warm THEN
 bool Parser::refuse_misplaced_time() {
-    if (in_property_ || !is_one_of(token(), {"FOR", "WITHIN"})) return false;
-    const Token first = token();
-    ++at_;
+    if (in_property_ || !is_one_of(in_.token(), {"FOR", "WITHIN"})) return false;
+    const Token first = in_.token();
+    in_.skip();
     ast::Value time;
-    if (token().kind == TokenKind::time || token().kind == TokenKind::number) parse_value(time);
+    if (in_.token().kind == TokenKind::time || in_.token().kind == TokenKind::number) parse_value(time);
     const std::string word = upper(first.text);
-    report_.add(
-        "E010", span_since(first), fmt::format("{} stands behind the whole condition, before THEN", word),
+    in_.report().add(
+        "E010", in_.span_since(first), fmt::format("{} stands behind the whole condition, before THEN", word),
         fmt::format("write IF condition {} T#500ms THEN; what lasts beside other conditions goes into an "
                     "IF of its own step",
                     word));
@@ -24,46 +24,47 @@ bool Parser::refuse_misplaced_time() {
 
 /// NEXT := Hold; WITHIN T#3s ELSE
 bool Parser::refuse_time_as_statement() {
-    if (!is_one_of(token(), {"WITHIN"})) return false;
-    report_.add("E010", token().span, "WITHIN stands behind the condition, before THEN",
-                "write IF condition WITHIN T#3s THEN NEXT := Step; ELSE NEXT := Fault; END_IF");
+    if (!is_one_of(in_.token(), {"WITHIN"})) return false;
+    in_.report().add("E010", in_.token().span, "WITHIN stands behind the condition, before THEN",
+                     "write IF condition WITHIN T#3s THEN NEXT := Step; ELSE NEXT := Fault; END_IF");
     return true;
 }
 
 /// SET Lamp WHEN Shut;
 bool Parser::refuse_condition_of_set(const ast::Statement& statement) {
-    if (!is_one_of(token(), {"WHEN", "IF"})) return false;
+    if (!is_one_of(in_.token(), {"WHEN", "IF"})) return false;
     const std::string word = upper(statement.name.text);
-    report_.add("E010", token().span, fmt::format("{} has no condition of its own", word),
-                fmt::format("write IF condition THEN {} Name; NEXT := Step; END_IF; an output that follows a "
-                            "condition is OUT Name WHEN condition;",
-                            word));
+    in_.report().add(
+        "E010", in_.token().span, fmt::format("{} has no condition of its own", word),
+        fmt::format("write IF condition THEN {} Name; NEXT := Step; END_IF; an output that follows a "
+                    "condition is OUT Name WHEN condition;",
+                    word));
     return true;
 }
 
 /// OUT SET Lamp;
 bool Parser::refuse_out_of_set() {
-    if (!is_one_of(token(), {"SET", "RESET"}) || !is_word_at(1)) return false;
-    const std::string word = upper(token().text);
-    report_.add("E010", token().span, fmt::format("{} stands without OUT", word),
-                fmt::format("write ENTRY {0} {1}; or {0} {1}; in a branch", word, token(1).text));
+    if (!is_one_of(in_.token(), {"SET", "RESET"}) || !in_.is_word_at(1)) return false;
+    const std::string word = upper(in_.token().text);
+    in_.report().add("E010", in_.token().span, fmt::format("{} stands without OUT", word),
+                     fmt::format("write ENTRY {0} {1}; or {0} {1}; in a branch", word, in_.token(1).text));
     return true;
 }
 
 /// OUT Lamp BLINK 1 s;
 void Parser::mend_blinking() {
-    if (!is_one_of(token(), {"BLINK", "BLINKS", "FLASH", "FLASHING"})) return;
-    report_.add("E010", token().span, "an output that blinks has the word BLINKING",
-                "write BLINKING T#500ms");
-    tokens_[at_].text = "BLINKING";
+    if (!is_one_of(in_.token(), {"BLINK", "BLINKS", "FLASH", "FLASHING"})) return;
+    in_.report().add("E010", in_.token().span, "an output that blinks has the word BLINKING",
+                     "write BLINKING T#500ms");
+    in_.replace("BLINKING");
 }
 
 /// OUT Lamp BLINKING 1 s WHEN Shut;
 bool Parser::refuse_behind_blinking() {
-    if (!is_one_of(token(), {"WHEN", "IF", "IN"})) return false;
-    const bool is_group = is_one_of(token(), {"IN"});
-    report_.add(
-        "E010", token().span,
+    if (!is_one_of(in_.token(), {"WHEN", "IF", "IN"})) return false;
+    const bool is_group = is_one_of(in_.token(), {"IN"});
+    in_.report().add(
+        "E010", in_.token().span,
         is_group ? "an OUT for many steps cannot blink" : "an output that blinks follows no condition",
         is_group ? "write OUT Lamp BLINKING T#500ms; in each of the steps"
                  : "let it blink in a step of its own, which a branch with the condition leads to");
@@ -72,59 +73,60 @@ bool Parser::refuse_behind_blinking() {
 
 /// OUT Lamp BLINKING 1 s IN Moving; outside of steps
 bool Parser::refuse_blinking_group() {
-    if (!is_one_of(token(), {"OUT"})) return false;
+    if (!is_one_of(in_.token(), {"OUT"})) return false;
     std::size_t ahead = 1;
-    while (token(ahead).kind != TokenKind::end && !is_symbol_at(ahead, ";") &&
-           !same_name(token(ahead).text, "BLINKING"))
+    while (in_.token(ahead).kind != TokenKind::end && !in_.is_symbol_at(ahead, ";") &&
+           !same_name(in_.token(ahead).text, "BLINKING"))
         ++ahead;
-    if (!same_name(token(ahead).text, "BLINKING")) return false;
-    const Span place = token(ahead).span;
-    while (token(ahead).kind != TokenKind::end && !is_symbol_at(ahead, ";") &&
-           !same_name(token(ahead).text, "IN"))
+    if (!same_name(in_.token(ahead).text, "BLINKING")) return false;
+    const Span place = in_.token(ahead).span;
+    while (in_.token(ahead).kind != TokenKind::end && !in_.is_symbol_at(ahead, ";") &&
+           !same_name(in_.token(ahead).text, "IN"))
         ++ahead;
-    if (!same_name(token(ahead).text, "IN")) return false;
-    report_.add("E010", place, "an OUT for many steps cannot blink",
-                "write OUT Lamp BLINKING T#500ms; in each of the steps");
-    while (!at_symbol(";") && token().kind != TokenKind::end) ++at_;
-    take_symbol(";");
+    if (!same_name(in_.token(ahead).text, "IN")) return false;
+    in_.report().add("E010", place, "an OUT for many steps cannot blink",
+                     "write OUT Lamp BLINKING T#500ms; in each of the steps");
+    while (!in_.at_symbol(";") && !in_.at_end()) in_.skip();
+    in_.take_symbol(";");
     return true;
 }
 
 /// A SEQUENCE between STEP and END_STEP. Behind an unclosed step another STEP comes before END_STEP.
 bool Parser::refuse_sequence_inside() {
-    if (!is_one_of(token(), {"SEQUENCE"})) return false;
+    if (!is_one_of(in_.token(), {"SEQUENCE"})) return false;
     std::size_t end = 1;
-    while (token(end).kind != TokenKind::end && !same_name(token(end).text, "END_SEQUENCE")) ++end;
-    if (token(end).kind == TokenKind::end) return false;
+    while (in_.token(end).kind != TokenKind::end && !same_name(in_.token(end).text, "END_SEQUENCE")) ++end;
+    if (in_.token(end).kind == TokenKind::end) return false;
     std::size_t behind = end + 1;
-    while (token(behind).kind != TokenKind::end && !same_name(token(behind).text, "STEP") &&
-           !same_name(token(behind).text, "END_STEP"))
+    while (in_.token(behind).kind != TokenKind::end && !same_name(in_.token(behind).text, "STEP") &&
+           !same_name(in_.token(behind).text, "END_STEP"))
         ++behind;
-    if (!same_name(token(behind).text, "END_STEP")) return false;
-    report_.add("E010", token().span, "SEQUENCE stands outside of steps", "put it above the first STEP");
-    names_missing_ = true;
-    at_ += end + 1;
-    take_symbol(";");
+    if (!same_name(in_.token(behind).text, "END_STEP")) return false;
+    in_.report().add("E010", in_.token().span, "SEQUENCE stands outside of steps",
+                     "put it above the first STEP");
+    notes_.miss_names();
+    in_.skip(end + 1);
+    in_.take_symbol(";");
     return true;
 }
 
 /// CONST A := 1; B := 2; END_CONST
 void Parser::mend_constant_block(ast::Program& program) {
-    if (!is_word_at(0) || !is_symbol_at(1, ":=")) return;
-    report_.add("E010", token().span, "each constant begins with CONST",
-                fmt::format("write CONST {} := value;", token().text));
-    while (is_word_at(0) && is_symbol_at(1, ":=")) {
-        --at_;
+    if (!in_.is_word_at(0) || !in_.is_symbol_at(1, ":=")) return;
+    in_.report().add("E010", in_.token().span, "each constant begins with CONST",
+                     fmt::format("write CONST {} := value;", in_.token().text));
+    while (in_.is_word_at(0) && in_.is_symbol_at(1, ":=")) {
         parse_one_constant(program);
     }
-    if (same_name(token().text, "END_CONST")) ++at_;
-    take_symbol(";");
+    if (same_name(in_.token().text, "END_CONST")) in_.skip();
+    in_.take_symbol(";");
 }
 
 /// CNTRL_BITS := HICLK OR INPSIGN;
 bool Parser::refuse_or_of_bits() {
-    if (!is_one_of(token(), {"OR"}) && !at_symbol("|")) return false;
-    report_.add("E010", token().span, "bits of a register are joined with +", "write HICLK + INPSIGN");
+    if (!is_one_of(in_.token(), {"OR"}) && !in_.at_symbol("|")) return false;
+    in_.report().add("E010", in_.token().span, "bits of a register are joined with +",
+                     "write HICLK + INPSIGN");
     return true;
 }
 

@@ -35,35 +35,36 @@ std::string help_behind_claim(const Token& before, const Token& here, const Toke
 ast::Program Parser::parse_claims() {
     in_claims_file_ = true;
     ast::Program program;
-    while (token().kind != TokenKind::end && !report_.full_of_errors()) {
-        if (at("PROPERTY")) {
+    while (!in_.at_end() && !in_.report().full_of_errors()) {
+        if (in_.at("PROPERTY")) {
             parse_property(program);
-        } else if (at("ASSUME")) {
+        } else if (in_.at("ASSUME")) {
             parse_assumption(program);
         } else {
-            if (!mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !report_.has_errors())
-                error_here("PROPERTY or ASSUME", "such a file has PROPERTY Name: claim; and ASSUME alone");
-            if (!at("PROPERTY") && !at("ASSUME")) ++at_;
+            if (!in_.mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !in_.report().has_errors())
+                in_.error_here("PROPERTY or ASSUME",
+                               "such a file has PROPERTY Name: claim; and ASSUME alone");
+            if (!in_.at("PROPERTY") && !in_.at("ASSUME")) in_.skip();
         }
     }
-    hand_over(program);
+    notes_.hand_over(program);
     return program;
 }
 
 void Parser::parse_property(ast::Program& program) {
-    const Token first = token();
-    ++at_;
+    const Token first = in_.token();
+    in_.skip();
     claim_ = {};
-    if (in_claims_file_ && token().kind == TokenKind::identifier && is_symbol_at(1, ":")) {
-        claim_.name = name_of(token());
-        note_use(ast::Role::property, token().span, true);
-        ++at_;
-    } else if (!expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
-        if (is_symbol_at(1, ":")) ++at_;  // a keyword as name: the claim follows all the same
+    if (in_claims_file_ && in_.token().kind == TokenKind::identifier && in_.is_symbol_at(1, ":")) {
+        claim_.name = name_of(in_.token());
+        notes_.add_use(ast::Role::property, in_.token().span, true);
+        in_.skip();
+    } else if (!notes_.expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
+        if (in_.is_symbol_at(1, ":")) in_.skip();  // a keyword as name: the claim follows all the same
         return recover_claim();
     }
-    if (!expect_symbol(":", "behind the property's name")) return recover_claim();
-    claim_begin_ = at_;
+    if (!in_.expect_symbol(":", "behind the property's name")) return recover_claim();
+    claim_begin_ = in_.position();
     in_property_ = true;
     const bool is_sound = parse_form();
     in_property_ = false;
@@ -71,9 +72,10 @@ void Parser::parse_property(ast::Program& program) {
 }
 
 void Parser::parse_assumption(ast::Program& program) {
-    const Token first = token();
+    const Token first = in_.token();
     claim_ = {};
-    claim_begin_ = at_++;
+    claim_begin_ = in_.position();
+    in_.skip();
     in_property_ = true;
     const bool is_sound = parse_assumed();
     in_property_ = false;
@@ -82,138 +84,142 @@ void Parser::parse_assumption(ast::Program& program) {
 
 void Parser::finish_claim(const Token& first, bool is_sound, ast::Program& program) {
     if (!is_sound) return recover_claim();
-    claim_.span = span_since(first);
-    if (at_symbol(";")) claim_.span.length = token().span.offset + token().span.length - claim_.span.offset;
-    if (const std::string help = help_behind_claim(tokens_[at_ - 1], token(), token(1)); !help.empty()) {
-        report_.add(
-            "E010", token().span,
-            fmt::format("a claim cannot go on with '{}' behind '{}'", token().text, tokens_[at_ - 1].text),
+    claim_.span = in_.span_since(first);
+    if (in_.at_symbol(";"))
+        claim_.span.length = in_.token().span.offset + in_.token().span.length - claim_.span.offset;
+    if (const std::string help = help_behind_claim(in_.last(), in_.token(), in_.token(1)); !help.empty()) {
+        in_.report().add(
+            "E010", in_.token().span,
+            fmt::format("a claim cannot go on with '{}' behind '{}'", in_.token().text, in_.last().text),
             help);
         return recover_claim();
     }
-    for (std::size_t i = claim_begin_; i < at_; ++i) claim_.words.push_back(tokens_[i].text);
+    for (std::size_t i = claim_begin_; i < in_.position(); ++i) claim_.words.push_back(in_.tokens()[i].text);
     program.claims.push_back(std::move(claim_));
-    end_statement();
+    in_.end_statement();
 }
 
 /// Skips to its end; STEP in a test does not begin a step.
 void Parser::recover_claim() {
-    while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
-    take_symbol(";");
+    while (!in_.at_symbol(";") && (!in_.at_boundary() || at_step_test()) && !in_.at_end()) in_.skip();
+    in_.take_symbol(";");
 }
 
 /// What can begin a claim, in the place of a word that cannot.
 bool Parser::refuse_claim(std::string_view word) {
     const std::string near =
         suggestion(word, {"NEVER", "ALWAYS", "WHENEVER", "BETWEEN", "AFTER", "EVERY_SCAN"});
-    report_.add(
-        "E010", token().span, fmt::format("a claim is expected behind the property's name, found '{}'", word),
+    in_.report().add(
+        "E010", in_.token().span,
+        fmt::format("a claim is expected behind the property's name, found '{}'", word),
         near.empty() ? "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
                        "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'"
                      : near);
-    ++at_;
+    in_.skip();
     return false;
 }
 
 /// NEVR Head, IF Head, EVENTUALLY Head: a word, and then one that cannot follow a condition.
 bool Parser::begins_no_claim() const {
-    if (token().kind != TokenKind::identifier || at("NOT") || at("STEP") || at("ANY")) return false;
-    if (at("IF")) return true;
+    if (in_.token().kind != TokenKind::identifier || in_.at("NOT") || in_.at("STEP") || in_.at("ANY"))
+        return false;
+    if (in_.at("IF")) return true;
     constexpr std::array<std::string_view, 6> kBehindCondition{"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"};
-    return is_word_at(0) && token(1).kind == TokenKind::identifier &&
+    return in_.is_word_at(0) && in_.token(1).kind == TokenKind::identifier &&
            std::none_of(kBehindCondition.begin(), kBehindCondition.end(),
-                        [&](std::string_view word) { return same_name(token(1).text, word); });
+                        [&](std::string_view word) { return same_name(in_.token(1).text, word); });
 }
 
 bool Parser::parse_form() {
-    if (take("NEVER")) return parse_never();
-    if (take("ALWAYS"))
-        return as(take("POSSIBLE") ? Form::always_possible : Form::always) && parse_condition();
-    if (take("WHENEVER")) return parse_whenever();
-    if (take("BETWEEN")) return parse_between();
-    if (take("AFTER")) {
+    if (in_.take("NEVER")) return parse_never();
+    if (in_.take("ALWAYS"))
+        return as(in_.take("POSSIBLE") ? Form::always_possible : Form::always) && parse_condition();
+    if (in_.take("WHENEVER")) return parse_whenever();
+    if (in_.take("BETWEEN")) return parse_between();
+    if (in_.take("AFTER")) {
         return as(Form::after_possible) && parse_condition() &&
-               expect("ALWAYS", "behind AFTER's condition") && expect("POSSIBLE", "behind ALWAYS") &&
+               in_.expect("ALWAYS", "behind AFTER's condition") && in_.expect("POSSIBLE", "behind ALWAYS") &&
                parse_condition();
     }
-    if (take("EVERY_SCAN")) {
-        return as(Form::scan_ends) && expect("FROM", "behind EVERY_SCAN") && parse_condition() &&
-               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") && parse_condition();
+    if (in_.take("EVERY_SCAN")) {
+        return as(Form::scan_ends) && in_.expect("FROM", "behind EVERY_SCAN") && parse_condition() &&
+               in_.expect("ENDS", "behind FROM's condition") && in_.expect("IN", "behind ENDS") &&
+               parse_condition();
     }
-    if (begins_no_claim()) return refuse_claim(token().text);
+    if (begins_no_claim()) return refuse_claim(in_.token().text);
     return parse_condition_first();
 }
 
 bool Parser::parse_never() {
     if (!parse_condition()) return false;
-    if (at("WITHIN")) {
-        report_.add("E010", token().span, "NEVER takes no WITHIN",
-                    "write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
+    if (in_.at("WITHIN")) {
+        in_.report().add("E010", in_.token().span, "NEVER takes no WITHIN",
+                         "write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
         return false;
     }
-    if (!take("WHILE")) return as(Form::never);
-    return as(Form::never_while) && parse_condition() && expect("FOR", "behind WHILE's condition") &&
+    if (!in_.take("WHILE")) return as(Form::never);
+    return as(Form::never_while) && parse_condition() && in_.expect("FOR", "behind WHILE's condition") &&
            parse_claimed_time();
 }
 
 bool Parser::parse_whenever() {
     if (!parse_condition()) return false;
-    if (take("FOLLOWED")) {
-        return as(Form::followed_by) && expect("BY", "behind FOLLOWED") && parse_condition() &&
-               expect("THEN", "behind BY's condition") && parse_condition();
+    if (in_.take("FOLLOWED")) {
+        return as(Form::followed_by) && in_.expect("BY", "behind FOLLOWED") && parse_condition() &&
+               in_.expect("THEN", "behind BY's condition") && parse_condition();
     }
-    const bool lasts = take("FOR");
+    const bool lasts = in_.take("FOR");
     as(lasts ? Form::whenever_for : Form::whenever);
-    if ((lasts && !parse_claimed_time()) || !expect("THEN", "behind WHENEVER's condition") ||
+    if ((lasts && !parse_claimed_time()) || !in_.expect("THEN", "behind WHENEVER's condition") ||
         !parse_condition())
         return false;
-    return lasts || !take("WITHIN") || parse_claimed_time();
+    return lasts || !in_.take("WITHIN") || parse_claimed_time();
 }
 
 /// The second condition is a single one: parentheses behind it belong to the third.
 bool Parser::parse_between() {
-    if (!parse_single_condition() || !expect("AND", "behind BETWEEN's first condition")) return false;
+    if (!parse_single_condition() || !in_.expect("AND", "behind BETWEEN's first condition")) return false;
     before_condition_ = true;
     const bool is_sound = parse_single_condition();
     before_condition_ = false;
-    if (!is_sound || !parse_condition() || !expect("STAYS", "behind what is to stay")) return false;
-    as(take("OFF") ? Form::stays_off : Form::stays_on);
-    return claim_.form == Form::stays_off || expect("ON", "or OFF behind STAYS");
+    if (!is_sound || !parse_condition() || !in_.expect("STAYS", "behind what is to stay")) return false;
+    as(in_.take("OFF") ? Form::stays_off : Form::stays_on);
+    return claim_.form == Form::stays_off || in_.expect("ON", "or OFF behind STAYS");
 }
 
 bool Parser::parse_condition_first() {
     if (!parse_condition()) return false;
-    if (take("ONLY")) return parse_only();
-    if (take("CHANGES")) {
-        return as(Form::changes_only_in) && expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") &&
-               parse_condition();
+    if (in_.take("ONLY")) return parse_only();
+    if (in_.take("CHANGES")) {
+        return as(Form::changes_only_in) && in_.expect("ONLY", "behind CHANGES") &&
+               in_.expect("IN", "behind ONLY") && parse_condition();
     }
-    return as(Form::reachable) && expect("IS", "behind a condition that begins a property") &&
-           expect("REACHABLE", "behind IS");
+    return as(Form::reachable) && in_.expect("IS", "behind a condition that begins a property") &&
+           in_.expect("REACHABLE", "behind IS");
 }
 
 bool Parser::parse_only() {
-    if (take("FROM")) return as(Form::only_from) && parse_condition();
-    if (!at("AFTER")) {
-        report_.add("E010", token().span,
-                    fmt::format("expected AFTER or FROM behind ONLY, found '{}'", token().text),
-                    "where it may hold alone is NEVER c AND NOT d, or x CHANGES ONLY IN d");
-        ++at_;
+    if (in_.take("FROM")) return as(Form::only_from) && parse_condition();
+    if (!in_.at("AFTER")) {
+        in_.report().add("E010", in_.token().span,
+                         fmt::format("expected AFTER or FROM behind ONLY, found '{}'", in_.token().text),
+                         "where it may hold alone is NEVER c AND NOT d, or x CHANGES ONLY IN d");
+        in_.skip();
         return false;
     }
-    ++at_;
+    in_.skip();
     if (!parse_condition()) return false;
-    if (!take("FOLLOWED")) return as(Form::only_after);
-    return as(Form::only_after_both) && expect("BY", "behind FOLLOWED") && parse_condition();
+    if (!in_.take("FOLLOWED")) return as(Form::only_after);
+    return as(Form::only_after_both) && in_.expect("BY", "behind FOLLOWED") && parse_condition();
 }
 
 bool Parser::parse_assumed() {
-    if (take("NEVER")) return as(Form::assume_never) && parse_condition();
+    if (in_.take("NEVER")) return as(Form::assume_never) && parse_condition();
     if (!parse_single_condition()) return false;
-    if (take("ENDS"))
-        return as(Form::assume_move_ends) && expect("WITHIN", "behind ENDS") && parse_claimed_time();
-    return as(Form::assume_stable) && expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
-           expect("FOR", "behind STABLE") && parse_claimed_time();
+    if (in_.take("ENDS"))
+        return as(Form::assume_move_ends) && in_.expect("WITHIN", "behind ENDS") && parse_claimed_time();
+    return as(Form::assume_stable) && in_.expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
+           in_.expect("FOR", "behind STABLE") && parse_claimed_time();
 }
 
 bool Parser::parse_condition() {
@@ -232,50 +238,51 @@ bool Parser::parse_single_condition() {
 
 bool Parser::parse_claimed_time() {
     ast::Value& time = claim_.time.emplace();
-    if (token().kind != TokenKind::identifier) return parse_literal(time);
+    if (in_.token().kind != TokenKind::identifier) return parse_literal(time);
     time.kind = ast::Value::Kind::name;
-    time.span = token().span;
-    return expect_name(time.name, "a time or the name of one", ast::Role::constant);
+    time.span = in_.token().span;
+    return notes_.expect_name(time.name, "a time or the name of one", ast::Role::constant);
 }
 
 bool Parser::at_step_test() const {
-    return at("STEP") && (is_symbol_at(1, "=") || same_name(token(1).text, "IN"));
+    return in_.at("STEP") && (in_.is_symbol_at(1, "=") || same_name(in_.token(1).text, "IN"));
 }
 
 /// STEP = Name, or its number; STEP IN Group.
 bool Parser::parse_step_test(ast::Expression& result) {
-    ++at_;
+    in_.skip();
     result.kind = ast::Expression::Kind::step;
-    if (take("IN")) {
+    if (in_.take("IN")) {
         result.value = true;
-        result.name = name_of(token());
-        if (at_symbol("(")) {
-            report_.add("E010", token().span, "STEP IN takes the name of one group",
-                        "give the steps one: GROUP Name: steps; and write STEP IN Name");
+        result.name = name_of(in_.token());
+        if (in_.at_symbol("(")) {
+            in_.report().add("E010", in_.token().span, "STEP IN takes the name of one group",
+                             "give the steps one: GROUP Name: steps; and write STEP IN Name");
             return false;
         }
-        return expect_name(result.name, "the name of a group", ast::Role::step_or_group);
+        return notes_.expect_name(result.name, "the name of a group", ast::Role::step_or_group);
     }
-    if (at_symbol("<")) {
-        report_.add("E010", token().span, "a step is compared with = alone", "write NOT STEP = Name");
+    if (in_.at_symbol("<")) {
+        in_.report().add("E010", in_.token().span, "a step is compared with = alone",
+                         "write NOT STEP = Name");
         return false;
     }
-    if (!expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
-    const Token target = token();
-    if (at_symbol("=")) {
-        report_.add("E010", target.span, "= stands twice", "write it once, as in STEP = Idle");
-        ++at_;
+    if (!in_.expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
+    const Token target = in_.token();
+    if (in_.at_symbol("=")) {
+        in_.report().add("E010", target.span, "= stands twice", "write it once, as in STEP = Idle");
+        in_.skip();
         return parse_step_name(result);
     }
     return parse_step_name(result);
 }
 
 bool Parser::parse_step_name(ast::Expression& result) {
-    result.name = name_of(token());
-    if (take("POWER_UP")) return true;
-    if (token().kind != TokenKind::number)
-        return expect_name(result.name, "the name of a step, or its number", ast::Role::step);
-    ++at_;
+    result.name = name_of(in_.token());
+    if (in_.take("POWER_UP")) return true;
+    if (in_.token().kind != TokenKind::number)
+        return notes_.expect_name(result.name, "the name of a step, or its number", ast::Role::step);
+    in_.skip();
     return true;
 }
 

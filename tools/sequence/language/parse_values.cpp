@@ -4,6 +4,7 @@
 
 #include "language/names.h"
 #include "language/parser.h"
+#include "language/reserved_words.h"
 
 /// Numbers, units and arithmetic.
 namespace nplc::seqc {
@@ -54,8 +55,7 @@ bool is_number_char(char c) {
     return is_digit_of_time(c) || c == '.' || c == '_';
 }
 
-}  // namespace
-
+/// Milliseconds of T#1s500ms; false if it is malformed.
 bool parse_time(std::string_view text, double& milliseconds) {
     std::string_view rest = text.substr(text.find('#') + 1);
     milliseconds = 0;
@@ -77,6 +77,8 @@ bool parse_time(std::string_view text, double& milliseconds) {
     return previous_unit < 1e12;
 }
 
+}  // namespace
+
 bool Parser::parse_value(ast::Value& value) {
     in_value_ = true;
     const bool is_value = parse_sum(value);
@@ -85,42 +87,42 @@ bool Parser::parse_value(ast::Value& value) {
 }
 
 bool Parser::parse_sum(ast::Value& value) {
-    const Token first = token();
+    const Token first = in_.token();
     if (!parse_product(value)) return false;
-    if (!at_symbol("+") && !at_symbol("-")) return true;
+    if (!in_.at_symbol("+") && !in_.at_symbol("-")) return true;
     ast::Value sum;
     sum.kind = ast::Value::Kind::sum;
     sum.operands.push_back(std::move(value));
-    while (at_symbol("+") || at_symbol("-")) {
-        const bool taken_off = at_symbol("-");
-        ++at_;
+    while (in_.at_symbol("+") || in_.at_symbol("-")) {
+        const bool taken_off = in_.at_symbol("-");
+        in_.skip();
         ast::Value operand;
         if (!parse_product(operand)) return false;
         sum.operands.push_back(taken_off ? wrapped(ast::Value::Kind::negation, std::move(operand))
                                          : std::move(operand));
     }
-    sum.span = span_since(first);
+    sum.span = in_.span_since(first);
     value = std::move(sum);
     return true;
 }
 
 bool Parser::parse_product(ast::Value& value) {
-    const Token first = token();
+    const Token first = in_.token();
     if (!parse_factor(value)) return false;
     if (refuse_modulo(value)) return true;
-    if (!at_symbol("*") && !at_symbol("/")) return true;
+    if (!in_.at_symbol("*") && !in_.at_symbol("/")) return true;
     ast::Value product;
     product.kind = ast::Value::Kind::product;
     product.operands.push_back(std::move(value));
-    while (at_symbol("*") || at_symbol("/")) {
-        const bool divides = at_symbol("/");
-        ++at_;
+    while (in_.at_symbol("*") || in_.at_symbol("/")) {
+        const bool divides = in_.at_symbol("/");
+        in_.skip();
         ast::Value operand;
         if (!parse_factor(operand)) return false;
         product.operands.push_back(divides ? wrapped(ast::Value::Kind::inverse, std::move(operand))
                                            : std::move(operand));
     }
-    product.span = span_since(first);
+    product.span = in_.span_since(first);
     value = std::move(product);
     return true;
 }
@@ -134,85 +136,82 @@ ast::Value Parser::wrapped(ast::Value::Kind kind, ast::Value operand) {
 }
 
 bool Parser::parse_factor(ast::Value& value) {
-    const Token first = token();
-    note_place(ast::Role::constant);
-    if (depth_ == kDeepest && (at_symbol("(") || at_symbol("-") || at_symbol("+"))) {
-        report_.add("E013", first.span, "this value is nested too deeply", "give a part of it a name: CONST");
+    const Token first = in_.token();
+    in_.note_place(ast::Role::constant);
+    if (in_.at_deepest() && (in_.at_symbol("(") || in_.at_symbol("-") || in_.at_symbol("+"))) {
+        in_.report().add("E013", first.span, "this value is nested too deeply",
+                         "give a part of it a name: CONST");
         return false;
     }
-    if (take_symbol("(")) {
-        ++depth_;
-        const bool sound = parse_value(value);
-        --depth_;
-        if (!sound || !expect_symbol(")", "to close the parenthesis")) return false;
-        value.span = span_since(first);
+    if (in_.take_symbol("(")) {
+        const bool sound = in_.nested([&] { return parse_value(value); });
+        if (!sound || !in_.expect_symbol(")", "to close the parenthesis")) return false;
+        value.span = in_.span_since(first);
         return true;
     }
-    const bool has_sign = at_symbol("-") || at_symbol("+");
-    if (has_sign && (is_word_at(1) || is_symbol_at(1, "("))) {
-        const bool negative = at_symbol("-");
-        ++at_;
-        ++depth_;
-        const bool sound = parse_factor(value);
-        --depth_;
+    const bool has_sign = in_.at_symbol("-") || in_.at_symbol("+");
+    if (has_sign && (in_.is_word_at(1) || in_.is_symbol_at(1, "("))) {
+        const bool negative = in_.at_symbol("-");
+        in_.skip();
+        const bool sound = in_.nested([&] { return parse_factor(value); });
         if (!sound || !negative) return sound;
         value = wrapped(ast::Value::Kind::negation, std::move(value));
-        value.span = span_since(first);
+        value.span = in_.span_since(first);
         return true;
     }
-    if (is_word_at(0)) return parse_named_value(value);
+    if (in_.is_word_at(0)) return parse_named_value(value);
     return parse_literal(value);
 }
 
 /// Pitch, GP_MODE, or BY_COMMAND = HOME2_MODE.
 bool Parser::parse_named_value(ast::Value& value) {
-    const Token first = token();
+    const Token first = in_.token();
     value.kind = ast::Value::Kind::name;
     value.name = name_of(first);
-    note_use(ast::Role::constant, first.span);
-    ++at_;
-    if (take_symbol("=")) {
+    notes_.add_use(ast::Role::constant, first.span);
+    in_.skip();
+    if (in_.take_symbol("=")) {
         value.kind = ast::Value::Kind::part;
         ast::Value& chosen = value.operands.emplace_back();
-        if (is_word_at(0)) {
+        if (in_.is_word_at(0)) {
             chosen.kind = ast::Value::Kind::name;
-            chosen.name = name_of(token());
-            chosen.span = token().span;
-            note_use(ast::Role::constant, chosen.span);
-            ++at_;
+            chosen.name = name_of(in_.token());
+            chosen.span = in_.token().span;
+            notes_.add_use(ast::Role::constant, chosen.span);
+            in_.skip();
         } else if (!parse_literal(chosen)) {
             return false;
         }
     }
-    value.span = span_since(first);
+    value.span = in_.span_since(first);
     return true;
 }
 
 bool Parser::parse_register_number(std::optional<ast::Value>& number) {
-    if (!expect_symbol("(", "after REG, as in REG(33)")) return false;
+    if (!in_.expect_symbol("(", "after REG, as in REG(33)")) return false;
     number.emplace();
     if (!parse_literal(*number)) return false;
-    return expect_symbol(")", "after the register's number");
+    return in_.expect_symbol(")", "after the register's number");
 }
 
 bool Parser::parse_literal(ast::Value& value) {
-    const Token first = token();
-    const bool negative = take_symbol("-");
-    if (!negative) take_symbol("+");
-    if (is_place()) expected_->value = true;
-    const Token literal = token();
+    const Token first = in_.token();
+    const bool negative = in_.take_symbol("-");
+    if (!negative) in_.take_symbol("+");
+    if (Expected* expected = in_.expected_here()) expected->value = true;
+    const Token literal = in_.token();
     const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
                             literal.kind == TokenKind::time;
     if (!is_literal) {
-        error_here(
+        in_.error_here(
             "a value",
-            at("TRUE") || at("FALSE")
+            in_.at("TRUE") || in_.at("FALSE")
                 ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
                 : "only constants can be written; a register's value is brought in by selecting it, as "
                   "in POSITION(P1), and another step is named with NEXT := Name;");
         return false;
     }
-    ++at_;
+    in_.skip();
     const Code code = literal.kind == TokenKind::time ? Code("E004") : Code("E003");
     bool sound = false;
     if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
@@ -220,85 +219,86 @@ bool Parser::parse_literal(ast::Value& value) {
     if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
     if (!sound && literal.kind == TokenKind::time && refuse_decimal_comma_in_time(literal)) return false;
     if (!sound || (negative && literal.kind != TokenKind::number)) {
-        report_.add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
-                    literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
-                    : literal.kind == TokenKind::based
-                        ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
-                    : literal.text.find('.') < literal.text.find('_')
-                        ? "write 1_000.5: underscores stand before the point"
-                        : "no register takes a number of this size");
+        in_.report().add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
+                         literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
+                         : literal.kind == TokenKind::based
+                             ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
+                         : literal.text.find('.') < literal.text.find('_')
+                             ? "write 1_000.5: underscores stand before the point"
+                             : "no register takes a number of this size");
         return false;
     }
     value.is_raw = literal.kind == TokenKind::based;
     value.is_time = literal.kind == TokenKind::time;
     if (negative) value.number = -value.number;
     if (literal.kind == TokenKind::number) parse_unit(value);
-    value.span = span_since(first);
+    value.span = in_.span_since(first);
     return !refuse_decimal_comma(first);
 }
 
 /// 80,5 mm; in a TERM the comma separates two bytes.
 bool Parser::refuse_decimal_comma(const Token& first) {
-    const Token& last = tokens_[at_ - 1];
-    const Token& digits = token(1);
-    const bool touches = token().span.offset == last.span.offset + last.span.length &&
-                         digits.span.offset == token().span.offset + 1;
-    if (in_term_ || !at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number ||
-        !touches)
+    const Token& last = in_.last();
+    const Token& digits = in_.token(1);
+    const bool touches = in_.token().span.offset == last.span.offset + last.span.length &&
+                         digits.span.offset == in_.token().span.offset + 1;
+    if (in_term_ || !in_.at_symbol(",") || last.kind != TokenKind::number ||
+        digits.kind != TokenKind::number || !touches)
         return false;
-    at_ += 2;
+    in_.skip(2);
     const bool maybe_thousands = digits.text.size() == 3 && last.text != "0";
-    report_.add("E003", span_since(first), "a number has a decimal point",
-                maybe_thousands
-                    ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
-                    : fmt::format("write {}.{}", last.text, digits.text));
+    in_.report().add("E003", in_.span_since(first), "a number has a decimal point",
+                     maybe_thousands
+                         ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
+                         : fmt::format("write {}.{}", last.text, digits.text));
     return true;
 }
 
 /// T#0,8s
 bool Parser::refuse_decimal_comma_in_time(const Token& literal) {
-    const Token digits = token(1);
+    const Token digits = in_.token(1);
     const std::uint32_t comma = literal.span.offset + literal.span.length;
-    if (!at_symbol(",") || token().span.offset != comma || digits.kind != TokenKind::number ||
+    if (!in_.at_symbol(",") || in_.token().span.offset != comma || digits.kind != TokenKind::number ||
         digits.span.offset != comma + 1)
         return false;
-    at_ += 2;
+    in_.skip(2);
     std::string_view unit;
-    if (token().kind == TokenKind::identifier &&
-        token().span.offset == digits.span.offset + digits.span.length) {
-        unit = token().text;
-        ++at_;
+    if (in_.token().kind == TokenKind::identifier &&
+        in_.token().span.offset == digits.span.offset + digits.span.length) {
+        unit = in_.token().text;
+        in_.skip();
     }
-    report_.add("E004", span_since(literal), "a number has a decimal point",
-                fmt::format("write {}.{}{}", literal.text, digits.text, unit));
+    in_.report().add("E004", in_.span_since(literal), "a number has a decimal point",
+                     fmt::format("write {}.{}{}", literal.text, digits.text, unit));
     return true;
 }
 
 void Parser::parse_unit(ast::Value& value) {
-    const Token first = token();
-    if (is_place()) expected_->unit = true;
+    const Token first = in_.token();
+    if (Expected* expected = in_.expected_here()) expected->unit = true;
     if (first.kind == TokenKind::direct) {
         value.unit = name_of(first);
-        ++at_;
+        in_.skip();
         return;
     }
-    if (same_name(token().text, "IN") && (is_symbol_at(1, ";") || is_symbol_at(1, "/"))) {
-        while (!at_symbol(";") && !at_boundary()) ++at_;
-        report_.add("E043", span_since(first), "there are no inches here",
-                    "write it in mm: 1 inch is 25.4 mm");
+    if (same_name(in_.token().text, "IN") && (in_.is_symbol_at(1, ";") || in_.is_symbol_at(1, "/"))) {
+        while (!in_.at_symbol(";") && !in_.at_boundary()) in_.skip();
+        in_.report().add("E043", in_.span_since(first), "there are no inches here",
+                         "write it in mm: 1 inch is 25.4 mm");
         return;
     }
     if (first.kind != TokenKind::identifier || is_reserved(first.text)) return;
-    ++at_;
+    in_.skip();
     std::string written(first.text);
-    for (; at_symbol("/") && token(1).kind == TokenKind::identifier && !(in_value_ && is_symbol_at(2, "="));
-         at_ += 2)
-        written.append("/").append(token(1).text);
-    value.unit.span = span_since(first);
-    value.unit.text = source_.substr(value.unit.span.offset, value.unit.span.length);
-    note_use(ast::Role::unit, value.unit.span);
+    for (; in_.at_symbol("/") && in_.token(1).kind == TokenKind::identifier &&
+           !(in_value_ && in_.is_symbol_at(2, "="));
+         in_.skip(2))
+        written.append("/").append(in_.token(1).text);
+    value.unit.span = in_.span_since(first);
+    value.unit.text = in_.source().substr(value.unit.span.offset, value.unit.span.length);
+    notes_.add_use(ast::Role::unit, value.unit.span);
     if (value.unit.text.size() == written.size()) return;
-    value.unit.text = texts_.emplace_back(std::move(written));
+    value.unit.text = notes_.keep(std::move(written));
 }
 
 }  // namespace nplc::seqc

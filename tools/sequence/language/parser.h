@@ -1,9 +1,6 @@
 #pragma once
 
-#include <deque>
-#include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,33 +8,17 @@
 #include "diagnostics/report.h"
 #include "language/ast.h"
 #include "language/lexer.h"
-#include "language/token.h"
+#include "language/notes.h"
+#include "language/token_stream.h"
 
 namespace nplc::seqc {
-
-/// The alternatives at a place, collected while the parser tries them.
-struct Expected {
-    std::vector<std::string_view> words;
-    std::vector<ast::Role> names;
-    bool value = false;
-    bool unit = false;
-};
-
-/// The token that marks such a place; it matches nothing else.
-inline constexpr std::string_view kPlace = "";
-
-/// Whether the token is one of these words. For words that are wrong here: nothing is noted as expected.
-bool is_one_of(const Token& token, std::initializer_list<std::string_view> words);
 
 /// Parses a program's tokens. After an error it continues at the next statement, so that one run reports all
 /// errors.
 class Parser {
   public:
     Parser(std::string_view source, std::vector<Token> tokens, Report& report)
-        : source_(source),
-          tokens_(std::move(tokens)),
-          report_(report),
-          comment_is_open_(report.has("E002")) {}
+        : in_(source, std::move(tokens), report) {}
     /// A program with its includes. Without sources an INCLUDE is parsed and ignored.
     Parser(const Sources& sources, Report& report)
         : Parser(sources.text(), tokens_of(sources, sources.program(), report), report) {
@@ -53,53 +34,12 @@ class Parser {
     bool at_part() const { return at_item() && !is_program(); }
 
     /// Collects the alternatives at the token kPlace.
-    void collect(Expected& expected) { expected_ = &expected; }
+    void collect(Expected& expected) { in_.collect(expected); }
 
     /// Returns the tokens after parse(), with misspelt keywords corrected.
-    std::vector<Token> take_tokens() { return std::move(tokens_); }
+    std::vector<Token> take_tokens() { return in_.take_tokens(); }
 
   private:
-    // parse_tokens.cpp
-    const Token& token(std::size_t ahead = 0) const;
-    bool at(std::string_view word) const;
-    bool at_symbol(std::string_view symbol) const;
-    bool take(std::string_view word);
-    bool take_symbol(std::string_view symbol);
-    bool expect(std::string_view word, std::string_view where);
-    bool at_equals();
-    bool expect_symbol(std::string_view symbol, std::string_view where);
-    bool expect_name(ast::Name& name, std::string_view what, ast::Role role, bool declares = false);
-    bool is_declared_step(std::string_view word) const;
-    void refuse_step_name(const ast::Name& name);
-    void note_use(ast::Role role, Span span, bool declares = false) {
-        uses_.push_back({role, span, declares});
-    }
-    bool is_place() const {
-        return expected_ != nullptr && token().kind == TokenKind::symbol && token().text == kPlace;
-    }
-    void note_place(ast::Role role) const;
-    Span place_here() const;
-    void error_here(std::string_view expected, std::string help = {});
-    /// Reports a misspelt keyword and continues with the correct one; false if no word is similar.
-    bool mend(const std::vector<std::string_view>& words, std::string_view expected);
-    /// The same for the first word of a statement. `end_words` are also allowed there.
-    void mend_statement(std::vector<std::string_view> end_words);
-    bool is_word_at(std::size_t ahead) const;
-    bool is_output_at(std::size_t ahead) const {
-        return is_word_at(ahead) || token(ahead).kind == TokenKind::direct;
-    }
-    /// The missing part is in an unclosed comment, which was reported.
-    bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
-    /// The file ends, which was reported.
-    bool end_was_reported();
-    void end_statement();
-    void recover();
-    bool at_boundary() const;
-    bool at_block_end(std::string_view end_word) const;
-    void end_block(std::string_view end_word, Span opened);
-    Span span_since(const Token& first) const;
-    ast::Name name_of(const Token& t) const { return {t.text, t.span}; }
-
     // parser.cpp: structure
     void twice(Span span, std::string_view what, Span first);
     void parse_item(ast::Program& program);
@@ -133,10 +73,8 @@ class Parser {
     bool is_program() const;
     void parse_headless(ast::Program& program);
     std::string help_of_headless() const;
-    void hand_over(ast::Program& program);
 
     // parse_foreign.cpp: constructs of other languages
-    bool is_symbol_at(std::size_t ahead, std::string_view symbol) const;
     /// Reports the correct form for a word such as WAIT or FOR; the parser is then at it, or behind its
     /// block.
     bool refuse_foreign_word();
@@ -157,6 +95,8 @@ class Parser {
     void parse_step_head(ast::Program& program, ast::Step& step);
 
     // parse_mistakes.cpp: keywords in the wrong place
+    /// Mends the first word of a statement. `end_words` are also allowed there.
+    void mend_statement(std::vector<std::string_view> end_words);
     bool refuse_item_inside();
     bool refuse_set_of_value(ast::Statement& statement);
     bool refuse_entry_with_condition();
@@ -197,7 +137,6 @@ class Parser {
     void skip_parameters();
     bool refuse_statement_outside();
     bool refuse_semicolon_between_parameters();
-    bool is_sequence(std::string_view name) const;
     bool parse_split_reset(ast::Statement& statement);
     std::optional<bool> parse_named_statement(ast::Statement& statement);
     bool parse_call(ast::Statement& statement);
@@ -267,25 +206,9 @@ class Parser {
     bool parse_step_name(ast::Expression& result);
     bool at_step_test() const;
 
-    static constexpr int kDeepest = 100;
-
-    std::string_view source_;
+    TokenStream in_;
+    Notes notes_{in_};
     const Sources* sources_ = nullptr;
-    std::vector<Token> tokens_;
-    Report& report_;
-    std::size_t at_ = 0;
-    int depth_ = 0;
-    std::deque<std::string> texts_;
-    std::vector<ast::Use> uses_;
-    std::vector<ast::Block> blocks_;
-    Expected* expected_ = nullptr;
-    std::vector<std::string_view> faulty_names_;
-    std::vector<std::string_view> registers_;  ///< names of VAR_MOTOR
-    std::vector<std::string_view> sequences_;  ///< names of those declared before
-    bool names_missing_ = false;
-    bool has_calls_ = false;
-    bool comment_is_open_;
-    bool end_reported_ = false;
     bool in_property_ = false;
     bool in_claims_file_ = false;    ///< words of the language can be names of properties there
     ast::Claim claim_;               ///< the property being parsed
@@ -294,18 +217,5 @@ class Parser {
     bool in_term_ = false;
     bool in_value_ = false;
 };
-
-/// Milliseconds of T#1s500ms; false if it is malformed.
-bool parse_time(std::string_view text, double& milliseconds);
-
-/// A token for messages: "'NEXT'", "the end of the file".
-std::string shown(const Token& t);
-
-/// Reserved words, which cannot be names.
-bool is_reserved(std::string_view word);
-std::span<const std::string_view> reserved_words();
-
-/// Whether a text can be a name: letters, digits and underscores, and no word of the language.
-bool is_name(std::string_view text);
 
 }  // namespace nplc::seqc

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "language/names.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "report/describe.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"

@@ -7,7 +7,7 @@
 #include "base/crc32.h"
 #include "host/paths.h"
 #include "language/names.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 #include "symbols/motors.h"

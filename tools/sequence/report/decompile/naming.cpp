@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "language/names.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 
 namespace nplc::seqc {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "compiler/scope.h"
-#include "language/parser.h"
+#include "language/reserved_words.h"
 #include "report/decompile/groups.h"
 #include "report/decompile/vocabulary.h"
 #include "report/describe.h"
