@@ -99,9 +99,6 @@ CLASSES = {
     "tools/sequence/compiler/scope.h:Scope": Large(
         "steps, registers, values and set-points are declared in terms of each other", methods=74, members=29
     ),
-    "tools/sequence/language/parser.h:Parser": Large(
-        "a program is parsed by mutual recursion over one cursor", methods=142
-    ),
     "tools/sequence/analysis/explorer.h:Explorer": Large(
         "the store of the states and the walk that fills it; the innermost loops use both", methods=67, members=29
     ),

@@ -119,4 +119,8 @@ void TokenStream::note_place(ast::Role role) const {
     if (Expected* expected = expected_here()) expected->names.push_back(role);
 }
 
+bool has_line_end(const TokenStream& in, std::size_t from, std::size_t to) {
+    return in.source().substr(from, to - from).find('\n') != std::string_view::npos;
+}
+
 }  // namespace nplc::seqc

@@ -9,21 +9,11 @@
 
 #include "diagnostics/report.h"
 #include "language/ast.h"
+#include "language/expected.h"
 #include "language/names.h"
 #include "language/token.h"
 
 namespace nplc::seqc {
-
-/// The alternatives at a place, collected while the parser tries them.
-struct Expected {
-    std::vector<std::string_view> words;
-    std::vector<ast::Role> names;
-    bool value = false;
-    bool unit = false;
-};
-
-/// The token that marks such a place; it matches nothing else.
-inline constexpr std::string_view kPlace = "";
 
 /// Whether the token is one of these words. For words that are wrong here: nothing is noted as expected.
 bool is_one_of(const Token& token, std::initializer_list<std::string_view> words);
@@ -40,6 +30,8 @@ inline ast::Name name_of(const Token& t) {
 class TokenStream {
   public:
     TokenStream(std::string_view source, std::vector<Token> tokens, Report& report);
+    TokenStream(const TokenStream&) = delete;
+    TokenStream& operator=(const TokenStream&) = delete;
 
     // The token here, and those ahead of it. Behind the last one there are only ends of the file.
     const Token& token(std::size_t ahead = 0) const {
@@ -146,5 +138,8 @@ class TokenStream {
     int depth_ = 0;
     Expected* expected_ = nullptr;
 };
+
+/// Whether a line ends between these places in the source.
+bool has_line_end(const TokenStream& in, std::size_t from, std::size_t to);
 
 }  // namespace nplc::seqc

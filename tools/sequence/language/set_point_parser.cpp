@@ -1,9 +1,33 @@
-#include "language/parser.h"
+#include "language/set_point_parser.h"
+
+#include <utility>
+
 #include "language/reserved_words.h"
 
 namespace nplc::seqc {
+namespace {
 
-void Parser::parse_set_point(ast::Program& program) {
+/// The declaration's semicolon stands further on in this line.
+bool goes_on_in_line(const TokenStream& in) {
+    const Token& last = in.last();
+    const std::string_view rest = in.source().substr(last.span.offset + last.span.length);
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    for (std::size_t ahead = 0; in.token(ahead).kind != TokenKind::end; ++ahead) {
+        if (in.token(ahead).span.offset >= last.span.offset + last.span.length + line.size()) return false;
+        if (in.is_symbol_at(ahead, ";")) return ahead > 0;
+    }
+    return false;
+}
+
+/// Behind what is wrong in it. The word STEP may follow, which begins a step elsewhere.
+void leave_set_point(TokenStream& in) {
+    if (!goes_on_in_line(in)) return in.recover();
+    while (!in.take_symbol(";")) in.skip();
+}
+
+}  // namespace
+
+void SetPointParser::parse(ast::Program& program) {
     in_.skip();
     ast::SetPoint point;
     if (!notes_.expect_name(point.name, "the set-point's name", ast::Role::set_point, true)) {
@@ -11,46 +35,22 @@ void Parser::parse_set_point(ast::Program& program) {
         return in_.recover();
     }
     notes_.begin_declaration(point.name.text);
-    if (!parse_set_point_place(point) || !parse_range(point)) return leave_set_point();
-    if (goes_on_in_line()) {
+    if (!parse_place(point) || !parse_range(point)) return leave_set_point(in_);
+    if (goes_on_in_line(in_)) {
         in_.error_here("';' or STEP behind the range", "every statement ends with a semicolon");
-        return leave_set_point();
+        return leave_set_point(in_);
     }
     notes_.end_declaration();
     program.set_points.push_back(std::move(point));
     in_.end_statement();
 }
 
-/// Behind what is wrong in it. The word STEP may follow, which begins a step elsewhere.
-void Parser::leave_set_point() {
-    if (!goes_on_in_line()) return in_.recover();
-    while (!in_.take_symbol(";")) in_.skip();
-}
-
-/// The declaration's semicolon stands further on in this line.
-bool Parser::goes_on_in_line() const {
-    const Token& last = in_.last();
-    const std::string_view rest = in_.source().substr(last.span.offset + last.span.length);
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    for (std::size_t ahead = 0; in_.token(ahead).kind != TokenKind::end; ++ahead) {
-        if (in_.token(ahead).span.offset >= last.span.offset + last.span.length + line.size()) return false;
-        if (in_.is_symbol_at(ahead, ";")) return ahead > 0;
-    }
-    return false;
-}
-
-/// A number that the lexer has refused is followed by no conclusion from it.
-bool Parser::parse_bound(ast::Value& value) {
-    const Token first = in_.token();
-    return parse_value(value) && (first.kind != TokenKind::number || first.text.size() == first.span.length);
-}
-
 /// AT register := value
-bool Parser::parse_set_point_place(ast::SetPoint& point) {
+bool SetPointParser::parse_place(ast::SetPoint& point) {
     if (in_.take("AT")) {
         in_.note_place(ast::Role::register_name);
         if (in_.take("REG")) {
-            if (!parse_register_number(point.register_number)) return false;
+            if (!values_.parse_register_number(point.register_number)) return false;
         } else if (in_.token().kind == TokenKind::identifier && !is_reserved(in_.token().text)) {
             point.address = name_of(in_.token());
             notes_.add_use(ast::Role::register_name, in_.token().span);
@@ -69,7 +69,7 @@ bool Parser::parse_set_point_place(ast::SetPoint& point) {
 }
 
 /// RANGE low .. high [STEP step]
-bool Parser::parse_range(ast::SetPoint& point) {
+bool SetPointParser::parse_range(ast::SetPoint& point) {
     if (!in_.expect("RANGE", "behind the value, as in RANGE 10 .. 200 mm") || !parse_bound(point.low))
         return false;
     if (in_.at_symbol(";") && point.low.kind == ast::Value::Kind::sum) {
@@ -88,14 +88,11 @@ bool Parser::parse_range(ast::SetPoint& point) {
     return true;
 }
 
-void Parser::parse_takes(ast::Step& step) {
+/// A number that the lexer has refused is followed by no conclusion from it.
+bool SetPointParser::parse_bound(ast::Value& value) {
     const Token first = in_.token();
-    step.takes_set_points_span = first.span;
-    in_.skip();
-    if (!in_.expect("SET_POINTS", "after TAKES")) return in_.recover();
-    step.takes_set_points_span = in_.span_since(first);
-    step.takes_set_points = true;
-    in_.end_statement();
+    return values_.parse(value) &&
+           (first.kind != TokenKind::number || first.text.size() == first.span.length);
 }
 
 }  // namespace nplc::seqc

@@ -1,10 +1,13 @@
+#include "language/property_parser.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
 
 #include "language/names.h"
-#include "language/parser.h"
 
 namespace nplc::seqc {
 namespace {
@@ -30,28 +33,44 @@ std::string help_behind_claim(const Token& before, const Token& here, const Toke
     return {};
 }
 
-}  // namespace
-
-ast::Program Parser::parse_claims() {
-    in_claims_file_ = true;
-    ast::Program program;
-    while (!in_.at_end() && !in_.report().full_of_errors()) {
-        if (in_.at("PROPERTY")) {
-            parse_property(program);
-        } else if (in_.at("ASSUME")) {
-            parse_assumption(program);
-        } else {
-            if (!in_.mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !in_.report().has_errors())
-                in_.error_here("PROPERTY or ASSUME",
-                               "such a file has PROPERTY Name: claim; and ASSUME alone");
-            if (!in_.at("PROPERTY") && !in_.at("ASSUME")) in_.skip();
-        }
-    }
-    notes_.hand_over(program);
-    return program;
+bool at_step_test(const TokenStream& in) {
+    return in.at("STEP") && (in.is_symbol_at(1, "=") || same_name(in.token(1).text, "IN"));
 }
 
-void Parser::parse_property(ast::Program& program) {
+/// Skips to its end; STEP in a test does not begin a step.
+void recover_claim(TokenStream& in) {
+    while (!in.at_symbol(";") && (!in.at_boundary() || at_step_test(in)) && !in.at_end()) in.skip();
+    in.take_symbol(";");
+}
+
+/// What can begin a claim, in the place of a word that cannot.
+bool refuse_claim(TokenStream& in, std::string_view word) {
+    const std::string near =
+        suggestion(word, {"NEVER", "ALWAYS", "WHENEVER", "BETWEEN", "AFTER", "EVERY_SCAN"});
+    in.report().add("E010", in.token().span,
+                    fmt::format("a claim is expected behind the property's name, found '{}'", word),
+                    near.empty()
+                        ? "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
+                          "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'"
+                        : near);
+    in.skip();
+    return false;
+}
+
+/// NEVR Head, IF Head, EVENTUALLY Head: a word, and then one that cannot follow a condition.
+bool begins_no_claim(const TokenStream& in) {
+    if (in.token().kind != TokenKind::identifier || in.at("NOT") || in.at("STEP") || in.at("ANY"))
+        return false;
+    if (in.at("IF")) return true;
+    constexpr std::array<std::string_view, 6> kBehindCondition{"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"};
+    return in.is_word_at(0) && in.token(1).kind == TokenKind::identifier &&
+           std::none_of(kBehindCondition.begin(), kBehindCondition.end(),
+                        [&](std::string_view word) { return same_name(in.token(1).text, word); });
+}
+
+}  // namespace
+
+void PropertyParser::parse(ast::Program& program) {
     const Token first = in_.token();
     in_.skip();
     claim_ = {};
@@ -61,29 +80,41 @@ void Parser::parse_property(ast::Program& program) {
         in_.skip();
     } else if (!notes_.expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
         if (in_.is_symbol_at(1, ":")) in_.skip();  // a keyword as name: the claim follows all the same
-        return recover_claim();
+        return recover_claim(in_);
     }
-    if (!in_.expect_symbol(":", "behind the property's name")) return recover_claim();
+    if (!in_.expect_symbol(":", "behind the property's name")) return recover_claim(in_);
     claim_begin_ = in_.position();
-    in_property_ = true;
     const bool is_sound = parse_form();
-    in_property_ = false;
     finish_claim(first, is_sound, program);
 }
 
-void Parser::parse_assumption(ast::Program& program) {
+void PropertyParser::parse_assumption(ast::Program& program) {
     const Token first = in_.token();
     claim_ = {};
     claim_begin_ = in_.position();
     in_.skip();
-    in_property_ = true;
     const bool is_sound = parse_assumed();
-    in_property_ = false;
     finish_claim(first, is_sound, program);
 }
 
-void Parser::finish_claim(const Token& first, bool is_sound, ast::Program& program) {
-    if (!is_sound) return recover_claim();
+void PropertyParser::parse_file(ast::Program& program) {
+    in_claims_file_ = true;
+    while (!in_.at_end() && !in_.report().full_of_errors()) {
+        if (in_.at("PROPERTY")) {
+            parse(program);
+        } else if (in_.at("ASSUME")) {
+            parse_assumption(program);
+        } else {
+            if (!in_.mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !in_.report().has_errors())
+                in_.error_here("PROPERTY or ASSUME",
+                               "such a file has PROPERTY Name: claim; and ASSUME alone");
+            if (!in_.at("PROPERTY") && !in_.at("ASSUME")) in_.skip();
+        }
+    }
+}
+
+void PropertyParser::finish_claim(const Token& first, bool is_sound, ast::Program& program) {
+    if (!is_sound) return recover_claim(in_);
     claim_.span = in_.span_since(first);
     if (in_.at_symbol(";"))
         claim_.span.length = in_.token().span.offset + in_.token().span.length - claim_.span.offset;
@@ -92,45 +123,14 @@ void Parser::finish_claim(const Token& first, bool is_sound, ast::Program& progr
             "E010", in_.token().span,
             fmt::format("a claim cannot go on with '{}' behind '{}'", in_.token().text, in_.last().text),
             help);
-        return recover_claim();
+        return recover_claim(in_);
     }
     for (std::size_t i = claim_begin_; i < in_.position(); ++i) claim_.words.push_back(in_.tokens()[i].text);
     program.claims.push_back(std::move(claim_));
     in_.end_statement();
 }
 
-/// Skips to its end; STEP in a test does not begin a step.
-void Parser::recover_claim() {
-    while (!in_.at_symbol(";") && (!in_.at_boundary() || at_step_test()) && !in_.at_end()) in_.skip();
-    in_.take_symbol(";");
-}
-
-/// What can begin a claim, in the place of a word that cannot.
-bool Parser::refuse_claim(std::string_view word) {
-    const std::string near =
-        suggestion(word, {"NEVER", "ALWAYS", "WHENEVER", "BETWEEN", "AFTER", "EVERY_SCAN"});
-    in_.report().add(
-        "E010", in_.token().span,
-        fmt::format("a claim is expected behind the property's name, found '{}'", word),
-        near.empty() ? "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
-                       "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'"
-                     : near);
-    in_.skip();
-    return false;
-}
-
-/// NEVR Head, IF Head, EVENTUALLY Head: a word, and then one that cannot follow a condition.
-bool Parser::begins_no_claim() const {
-    if (in_.token().kind != TokenKind::identifier || in_.at("NOT") || in_.at("STEP") || in_.at("ANY"))
-        return false;
-    if (in_.at("IF")) return true;
-    constexpr std::array<std::string_view, 6> kBehindCondition{"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"};
-    return in_.is_word_at(0) && in_.token(1).kind == TokenKind::identifier &&
-           std::none_of(kBehindCondition.begin(), kBehindCondition.end(),
-                        [&](std::string_view word) { return same_name(in_.token(1).text, word); });
-}
-
-bool Parser::parse_form() {
+bool PropertyParser::parse_form() {
     if (in_.take("NEVER")) return parse_never();
     if (in_.take("ALWAYS"))
         return as(in_.take("POSSIBLE") ? Form::always_possible : Form::always) && parse_condition();
@@ -146,11 +146,11 @@ bool Parser::parse_form() {
                in_.expect("ENDS", "behind FROM's condition") && in_.expect("IN", "behind ENDS") &&
                parse_condition();
     }
-    if (begins_no_claim()) return refuse_claim(in_.token().text);
+    if (begins_no_claim(in_)) return refuse_claim(in_, in_.token().text);
     return parse_condition_first();
 }
 
-bool Parser::parse_never() {
+bool PropertyParser::parse_never() {
     if (!parse_condition()) return false;
     if (in_.at("WITHIN")) {
         in_.report().add("E010", in_.token().span, "NEVER takes no WITHIN",
@@ -159,10 +159,10 @@ bool Parser::parse_never() {
     }
     if (!in_.take("WHILE")) return as(Form::never);
     return as(Form::never_while) && parse_condition() && in_.expect("FOR", "behind WHILE's condition") &&
-           parse_claimed_time();
+           parse_time();
 }
 
-bool Parser::parse_whenever() {
+bool PropertyParser::parse_whenever() {
     if (!parse_condition()) return false;
     if (in_.take("FOLLOWED")) {
         return as(Form::followed_by) && in_.expect("BY", "behind FOLLOWED") && parse_condition() &&
@@ -170,24 +170,21 @@ bool Parser::parse_whenever() {
     }
     const bool lasts = in_.take("FOR");
     as(lasts ? Form::whenever_for : Form::whenever);
-    if ((lasts && !parse_claimed_time()) || !in_.expect("THEN", "behind WHENEVER's condition") ||
-        !parse_condition())
+    if ((lasts && !parse_time()) || !in_.expect("THEN", "behind WHENEVER's condition") || !parse_condition())
         return false;
-    return lasts || !in_.take("WITHIN") || parse_claimed_time();
+    return lasts || !in_.take("WITHIN") || parse_time();
 }
 
 /// The second condition is a single one: parentheses behind it belong to the third.
-bool Parser::parse_between() {
+bool PropertyParser::parse_between() {
     if (!parse_single_condition() || !in_.expect("AND", "behind BETWEEN's first condition")) return false;
-    before_condition_ = true;
-    const bool is_sound = parse_single_condition();
-    before_condition_ = false;
-    if (!is_sound || !parse_condition() || !in_.expect("STAYS", "behind what is to stay")) return false;
+    if (!parse_single_condition(true) || !parse_condition() || !in_.expect("STAYS", "behind what is to stay"))
+        return false;
     as(in_.take("OFF") ? Form::stays_off : Form::stays_on);
     return claim_.form == Form::stays_off || in_.expect("ON", "or OFF behind STAYS");
 }
 
-bool Parser::parse_condition_first() {
+bool PropertyParser::parse_condition_first() {
     if (!parse_condition()) return false;
     if (in_.take("ONLY")) return parse_only();
     if (in_.take("CHANGES")) {
@@ -198,7 +195,7 @@ bool Parser::parse_condition_first() {
            in_.expect("REACHABLE", "behind IS");
 }
 
-bool Parser::parse_only() {
+bool PropertyParser::parse_only() {
     if (in_.take("FROM")) return as(Form::only_from) && parse_condition();
     if (!in_.at("AFTER")) {
         in_.report().add("E010", in_.token().span,
@@ -213,77 +210,35 @@ bool Parser::parse_only() {
     return as(Form::only_after_both) && in_.expect("BY", "behind FOLLOWED") && parse_condition();
 }
 
-bool Parser::parse_assumed() {
+bool PropertyParser::parse_assumed() {
     if (in_.take("NEVER")) return as(Form::assume_never) && parse_condition();
     if (!parse_single_condition()) return false;
     if (in_.take("ENDS"))
-        return as(Form::assume_move_ends) && in_.expect("WITHIN", "behind ENDS") && parse_claimed_time();
+        return as(Form::assume_move_ends) && in_.expect("WITHIN", "behind ENDS") && parse_time();
     return as(Form::assume_stable) && in_.expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
-           in_.expect("FOR", "behind STABLE") && parse_claimed_time();
+           in_.expect("FOR", "behind STABLE") && parse_time();
 }
 
-bool Parser::parse_condition() {
+bool PropertyParser::parse_condition() {
     ast::Expression condition;
-    const bool is_sound = parse_expression(condition);
+    const bool is_sound = conditions_.parse(condition);
     claim_.conditions.push_back(std::move(condition));
     return is_sound;
 }
 
-bool Parser::parse_single_condition() {
+bool PropertyParser::parse_single_condition(bool another_follows) {
     ast::Expression condition;
-    const bool is_sound = parse_primary(condition);
+    const bool is_sound = conditions_.parse_single(condition, another_follows);
     claim_.conditions.push_back(std::move(condition));
     return is_sound;
 }
 
-bool Parser::parse_claimed_time() {
+bool PropertyParser::parse_time() {
     ast::Value& time = claim_.time.emplace();
-    if (in_.token().kind != TokenKind::identifier) return parse_literal(time);
+    if (in_.token().kind != TokenKind::identifier) return values_.parse_literal(time);
     time.kind = ast::Value::Kind::name;
     time.span = in_.token().span;
     return notes_.expect_name(time.name, "a time or the name of one", ast::Role::constant);
-}
-
-bool Parser::at_step_test() const {
-    return in_.at("STEP") && (in_.is_symbol_at(1, "=") || same_name(in_.token(1).text, "IN"));
-}
-
-/// STEP = Name, or its number; STEP IN Group.
-bool Parser::parse_step_test(ast::Expression& result) {
-    in_.skip();
-    result.kind = ast::Expression::Kind::step;
-    if (in_.take("IN")) {
-        result.value = true;
-        result.name = name_of(in_.token());
-        if (in_.at_symbol("(")) {
-            in_.report().add("E010", in_.token().span, "STEP IN takes the name of one group",
-                             "give the steps one: GROUP Name: steps; and write STEP IN Name");
-            return false;
-        }
-        return notes_.expect_name(result.name, "the name of a group", ast::Role::step_or_group);
-    }
-    if (in_.at_symbol("<")) {
-        in_.report().add("E010", in_.token().span, "a step is compared with = alone",
-                         "write NOT STEP = Name");
-        return false;
-    }
-    if (!in_.expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
-    const Token target = in_.token();
-    if (in_.at_symbol("=")) {
-        in_.report().add("E010", target.span, "= stands twice", "write it once, as in STEP = Idle");
-        in_.skip();
-        return parse_step_name(result);
-    }
-    return parse_step_name(result);
-}
-
-bool Parser::parse_step_name(ast::Expression& result) {
-    result.name = name_of(in_.token());
-    if (in_.take("POWER_UP")) return true;
-    if (in_.token().kind != TokenKind::number)
-        return notes_.expect_name(result.name, "the name of a step, or its number", ast::Role::step);
-    in_.skip();
-    return true;
 }
 
 }  // namespace nplc::seqc

@@ -1,12 +1,12 @@
+#include "language/value_parser.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
 
 #include "language/names.h"
-#include "language/parser.h"
 #include "language/reserved_words.h"
 
-/// Numbers, units and arithmetic.
 namespace nplc::seqc {
 namespace {
 
@@ -77,16 +77,60 @@ bool parse_time(std::string_view text, double& milliseconds) {
     return previous_unit < 1e12;
 }
 
+ast::Value wrapped(ast::Value::Kind kind, ast::Value operand) {
+    ast::Value result;
+    result.kind = kind;
+    result.span = operand.span;
+    result.operands.push_back(std::move(operand));
+    return result;
+}
+
+/// 80,5 mm
+bool refuse_decimal_comma(TokenStream& in, const Token& first) {
+    const Token& last = in.last();
+    const Token& digits = in.token(1);
+    const bool touches = in.token().span.offset == last.span.offset + last.span.length &&
+                         digits.span.offset == in.token().span.offset + 1;
+    if (!in.at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number || !touches)
+        return false;
+    in.skip(2);
+    const bool maybe_thousands = digits.text.size() == 3 && last.text != "0";
+    in.report().add("E003", in.span_since(first), "a number has a decimal point",
+                    maybe_thousands
+                        ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
+                        : fmt::format("write {}.{}", last.text, digits.text));
+    return true;
+}
+
+/// T#0,8s
+bool refuse_decimal_comma_in_time(TokenStream& in, const Token& literal) {
+    const Token digits = in.token(1);
+    const std::uint32_t comma = literal.span.offset + literal.span.length;
+    if (!in.at_symbol(",") || in.token().span.offset != comma || digits.kind != TokenKind::number ||
+        digits.span.offset != comma + 1)
+        return false;
+    in.skip(2);
+    std::string_view unit;
+    if (in.token().kind == TokenKind::identifier &&
+        in.token().span.offset == digits.span.offset + digits.span.length) {
+        unit = in.token().text;
+        in.skip();
+    }
+    in.report().add("E004", in.span_since(literal), "a number has a decimal point",
+                    fmt::format("write {}.{}{}", literal.text, digits.text, unit));
+    return true;
+}
+
 }  // namespace
 
-bool Parser::parse_value(ast::Value& value) {
-    in_value_ = true;
+bool ValueParser::parse(ast::Value& value) {
+    in_arithmetic_ = true;
     const bool is_value = parse_sum(value);
-    in_value_ = false;
+    in_arithmetic_ = false;
     return is_value;
 }
 
-bool Parser::parse_sum(ast::Value& value) {
+bool ValueParser::parse_sum(ast::Value& value) {
     const Token first = in_.token();
     if (!parse_product(value)) return false;
     if (!in_.at_symbol("+") && !in_.at_symbol("-")) return true;
@@ -106,7 +150,7 @@ bool Parser::parse_sum(ast::Value& value) {
     return true;
 }
 
-bool Parser::parse_product(ast::Value& value) {
+bool ValueParser::parse_product(ast::Value& value) {
     const Token first = in_.token();
     if (!parse_factor(value)) return false;
     if (refuse_modulo(value)) return true;
@@ -127,15 +171,7 @@ bool Parser::parse_product(ast::Value& value) {
     return true;
 }
 
-ast::Value Parser::wrapped(ast::Value::Kind kind, ast::Value operand) {
-    ast::Value result;
-    result.kind = kind;
-    result.span = operand.span;
-    result.operands.push_back(std::move(operand));
-    return result;
-}
-
-bool Parser::parse_factor(ast::Value& value) {
+bool ValueParser::parse_factor(ast::Value& value) {
     const Token first = in_.token();
     in_.note_place(ast::Role::constant);
     if (in_.at_deepest() && (in_.at_symbol("(") || in_.at_symbol("-") || in_.at_symbol("+"))) {
@@ -144,7 +180,7 @@ bool Parser::parse_factor(ast::Value& value) {
         return false;
     }
     if (in_.take_symbol("(")) {
-        const bool sound = in_.nested([&] { return parse_value(value); });
+        const bool sound = in_.nested([&] { return parse(value); });
         if (!sound || !in_.expect_symbol(")", "to close the parenthesis")) return false;
         value.span = in_.span_since(first);
         return true;
@@ -159,12 +195,12 @@ bool Parser::parse_factor(ast::Value& value) {
         value.span = in_.span_since(first);
         return true;
     }
-    if (in_.is_word_at(0)) return parse_named_value(value);
+    if (in_.is_word_at(0)) return parse_name(value);
     return parse_literal(value);
 }
 
 /// Pitch, GP_MODE, or BY_COMMAND = HOME2_MODE.
-bool Parser::parse_named_value(ast::Value& value) {
+bool ValueParser::parse_name(ast::Value& value) {
     const Token first = in_.token();
     value.kind = ast::Value::Kind::name;
     value.name = name_of(first);
@@ -187,14 +223,26 @@ bool Parser::parse_named_value(ast::Value& value) {
     return true;
 }
 
-bool Parser::parse_register_number(std::optional<ast::Value>& number) {
+/// 7 MOD 4: MOD is parsed as the unit of 7.
+bool ValueParser::refuse_modulo(ast::Value& value) {
+    const bool is_unit = same_name(value.unit.text, "MOD") || same_name(value.unit.text, "DIV");
+    if (!is_unit || in_.at_symbol(";")) return false;
+    in_.report().add("E045", value.unit.span, fmt::format("there is no {} here", upper(value.unit.text)),
+                     "values are calculated with + - * / and parentheses");
+    value.unit = {};
+    ast::Value dropped;
+    parse_factor(dropped);
+    return true;
+}
+
+bool ValueParser::parse_register_number(std::optional<ast::Value>& number) {
     if (!in_.expect_symbol("(", "after REG, as in REG(33)")) return false;
     number.emplace();
     if (!parse_literal(*number)) return false;
     return in_.expect_symbol(")", "after the register's number");
 }
 
-bool Parser::parse_literal(ast::Value& value) {
+bool ValueParser::parse_literal(ast::Value& value, bool in_list) {
     const Token first = in_.token();
     const bool negative = in_.take_symbol("-");
     if (!negative) in_.take_symbol("+");
@@ -217,7 +265,7 @@ bool Parser::parse_literal(ast::Value& value) {
     if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
     if (literal.kind == TokenKind::based) sound = to_based(literal.text, value.number);
     if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
-    if (!sound && literal.kind == TokenKind::time && refuse_decimal_comma_in_time(literal)) return false;
+    if (!sound && literal.kind == TokenKind::time && refuse_decimal_comma_in_time(in_, literal)) return false;
     if (!sound || (negative && literal.kind != TokenKind::number)) {
         in_.report().add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
                          literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
@@ -233,47 +281,10 @@ bool Parser::parse_literal(ast::Value& value) {
     if (negative) value.number = -value.number;
     if (literal.kind == TokenKind::number) parse_unit(value);
     value.span = in_.span_since(first);
-    return !refuse_decimal_comma(first);
+    return in_list || !refuse_decimal_comma(in_, first);
 }
 
-/// 80,5 mm; in a TERM the comma separates two bytes.
-bool Parser::refuse_decimal_comma(const Token& first) {
-    const Token& last = in_.last();
-    const Token& digits = in_.token(1);
-    const bool touches = in_.token().span.offset == last.span.offset + last.span.length &&
-                         digits.span.offset == in_.token().span.offset + 1;
-    if (in_term_ || !in_.at_symbol(",") || last.kind != TokenKind::number ||
-        digits.kind != TokenKind::number || !touches)
-        return false;
-    in_.skip(2);
-    const bool maybe_thousands = digits.text.size() == 3 && last.text != "0";
-    in_.report().add("E003", in_.span_since(first), "a number has a decimal point",
-                     maybe_thousands
-                         ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
-                         : fmt::format("write {}.{}", last.text, digits.text));
-    return true;
-}
-
-/// T#0,8s
-bool Parser::refuse_decimal_comma_in_time(const Token& literal) {
-    const Token digits = in_.token(1);
-    const std::uint32_t comma = literal.span.offset + literal.span.length;
-    if (!in_.at_symbol(",") || in_.token().span.offset != comma || digits.kind != TokenKind::number ||
-        digits.span.offset != comma + 1)
-        return false;
-    in_.skip(2);
-    std::string_view unit;
-    if (in_.token().kind == TokenKind::identifier &&
-        in_.token().span.offset == digits.span.offset + digits.span.length) {
-        unit = in_.token().text;
-        in_.skip();
-    }
-    in_.report().add("E004", in_.span_since(literal), "a number has a decimal point",
-                     fmt::format("write {}.{}{}", literal.text, digits.text, unit));
-    return true;
-}
-
-void Parser::parse_unit(ast::Value& value) {
+void ValueParser::parse_unit(ast::Value& value) {
     const Token first = in_.token();
     if (Expected* expected = in_.expected_here()) expected->unit = true;
     if (first.kind == TokenKind::direct) {
@@ -291,14 +302,20 @@ void Parser::parse_unit(ast::Value& value) {
     in_.skip();
     std::string written(first.text);
     for (; in_.at_symbol("/") && in_.token(1).kind == TokenKind::identifier &&
-           !(in_value_ && in_.is_symbol_at(2, "="));
+           !(in_arithmetic_ && in_.is_symbol_at(2, "="));
          in_.skip(2))
         written.append("/").append(in_.token(1).text);
     value.unit.span = in_.span_since(first);
-    value.unit.text = in_.source().substr(value.unit.span.offset, value.unit.span.length);
+    value.unit.text = in_.text_of(value.unit.span);
     notes_.add_use(ast::Role::unit, value.unit.span);
     if (value.unit.text.size() == written.size()) return;
     value.unit.text = notes_.keep(std::move(written));
+}
+
+bool ValueParser::expect_time(ast::Value& time, std::string_view word) {
+    if (!in_.at("THEN") && !in_.at_symbol(";")) return parse(time);
+    in_.error_here("a time", fmt::format("write {} T#500ms", word));
+    return false;
 }
 
 }  // namespace nplc::seqc

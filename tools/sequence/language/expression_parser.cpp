@@ -1,9 +1,12 @@
+#include "language/expression_parser.h"
+
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
+#include "language/condition_mistakes.h"
 #include "language/names.h"
-#include "language/parser.h"
 
 namespace nplc::seqc {
 namespace {
@@ -17,36 +20,44 @@ struct Operator {
 };
 
 /// Lowest precedence first, as in IEC 61131-3.
-constexpr std::array kOperators = {
+constexpr std::array kConnectives = {
     Operator{"OR", Kind::any_of},
     Operator{"XOR", Kind::odd_of},
     Operator{"AND", Kind::all_of},
 };
 
-}  // namespace
-
-bool Parser::parse_expression(Expression& result) {
-    return parse_operators(result, 0);
+bool at_edge(const TokenStream& in) {
+    const bool is_rising = in.at("R_TRIG");
+    return (in.at("F_TRIG") || is_rising) && in.is_symbol_at(1, "(");
 }
 
-bool Parser::parse_operators(Expression& result, std::size_t level) {
-    if (level == kOperators.size()) {
+}  // namespace
+
+bool ExpressionParser::parse_single(Expression& result, bool another_follows) {
+    another_follows_ = another_follows;
+    const bool sound = parse_primary(result);
+    another_follows_ = false;
+    return sound;
+}
+
+bool ExpressionParser::parse_operators(Expression& result, std::size_t level) {
+    if (level == kConnectives.size()) {
         const Token first = in_.token();
         const std::size_t errors_before = in_.report().error_count();
         if (!parse_primary(result)) return false;
-        if (at_comparison())
-            return refuse_comparison(first, result, in_.report().error_count() > errors_before);
+        if (!in_property_ && at_comparison(in_))
+            return refuse_comparison(in_, values_, first, result, in_.report().error_count() > errors_before);
         if (in_.at("FOR") || in_.at("WITHIN")) return true;
         in_.mend({"AND", "OR", "XOR"}, "AND, OR, XOR or the end of the condition");
         return true;
     }
     const Token first = in_.token();
     if (!parse_operators(result, level + 1)) return false;
-    if (!in_.at(kOperators[level].word)) return true;
+    if (!in_.at(kConnectives[level].word)) return true;
     Expression joined;
-    joined.kind = kOperators[level].kind;
+    joined.kind = kConnectives[level].kind;
     joined.operands.push_back(std::move(result));
-    while (in_.take(kOperators[level].word)) {
+    while (in_.take(kConnectives[level].word)) {
         Expression operand;
         if (!parse_operators(operand, level + 1)) return false;
         joined.operands.push_back(std::move(operand));
@@ -56,11 +67,11 @@ bool Parser::parse_operators(Expression& result, std::size_t level) {
     return true;
 }
 
-bool Parser::parse_primary(Expression& result) {
+bool ExpressionParser::parse_primary(Expression& result) {
     const bool before_operand =
         in_.is_word_at(1) || (in_.token(1).kind == TokenKind::symbol && in_.token(1).text == "(");
     if (before_operand) in_.mend({"NOT"}, "a condition");
-    if (refuse_misplaced_time() && in_.at("THEN")) {
+    if (!in_property_ && refuse_misplaced_time(in_, values_) && in_.at("THEN")) {
         result = {};
         return true;
     }
@@ -78,8 +89,8 @@ bool Parser::parse_primary(Expression& result) {
         return sound;
     }
     if (in_.take_symbol("(")) {
-        const bool sound = in_.nested([&] { return parse_expression(result); });
-        if (sound) refuse_misplaced_time();
+        const bool sound = in_.nested([&] { return parse(result); });
+        if (sound && !in_property_) refuse_misplaced_time(in_, values_);
         return sound && in_.expect_symbol(")", "to close the parenthesis");
     }
     const bool sound = parse_named_primary(result);
@@ -87,11 +98,13 @@ bool Parser::parse_primary(Expression& result) {
     return sound;
 }
 
-bool Parser::parse_named_primary(Expression& result) {
-    if (in_.is_symbol_at(1, ".") && !mend_numbered_timer()) in_.mend({"TIMER", "COUNTER"}, "a condition");
+bool ExpressionParser::parse_named_primary(Expression& result) {
+    if (in_.is_symbol_at(1, ".") && !mend_numbered_timer(in_)) in_.mend({"TIMER", "COUNTER"}, "a condition");
     if (in_property_ && in_.at("STEP")) return parse_step_test(result);
-    if (at_edge()) return parse_edge(result);
-    if (refuse_call_or_part() || refuse_time_as_condition(result)) return true;
+    if (!in_property_ && at_edge(in_)) return parse_edge(result);
+    if (refuse_call_or_part(in_, in_property_, !another_follows_) ||
+        refuse_time_as_condition(in_, values_, in_property_, result))
+        return true;
     if (in_.at("TRUE") || in_.at("FALSE")) {
         result.kind = Kind::constant;
         result.value = in_.at("TRUE");
@@ -146,14 +159,8 @@ bool Parser::parse_named_primary(Expression& result) {
     return notes_.expect_name(result.name, expected, ast::Role::tested);
 }
 
-bool Parser::at_edge() const {
-    if (in_property_) return false;
-    const bool is_rising = in_.at("R_TRIG");
-    return (in_.at("F_TRIG") || is_rising) && in_.is_symbol_at(1, "(");
-}
-
 /// R_TRIG(Start)
-bool Parser::parse_edge(Expression& result) {
+bool ExpressionParser::parse_edge(Expression& result) {
     const Token first = in_.token();
     result.kind = in_.at("R_TRIG") ? Kind::rising : Kind::falling;
     notes_.add_use(ast::Role::keyword, first.span);
@@ -175,54 +182,42 @@ bool Parser::parse_edge(Expression& result) {
     return true;
 }
 
-bool Parser::at_symbolic_term() const {
-    return in_.at("IF") || (in_.token().kind == TokenKind::identifier &&
-                            in_.token(1).kind == TokenKind::symbol && in_.token(1).text == ":");
-}
-
-bool Parser::parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& terms) {
-    ast::RawTerm term;
-    ast::SymbolicTerm& symbols = term.symbols.emplace();
-    bool has_name = true;
-    if (!in_.at("IF")) {
-        has_name = notes_.expect_name(symbols.step, "the name of a step", ast::Role::step);
-        in_.skip(has_name ? 1 : 2);
-    }
-    const Span opened = in_.token().span;
-    if (!in_.expect("IF", "after the step's name, as in TERM Idle: IF Start THEN ... END_IF;")) return false;
-    if (!parse_expression(symbols.condition)) {
-        symbols.condition.kind = ast::Expression::Kind::constant;
-        while (!in_.at("THEN") && !in_.at_boundary() && !in_.at_symbol(";")) in_.skip();
-    }
-    if (!in_.take("THEN")) in_.error_here("THEN after the condition");
-    parse_symbolic_body(symbols);
-    if (in_.at("ELSIF") || in_.at("ELSE")) {
-        in_.report().add("E094", in_.token().span, "a TERM is one term, which has one condition",
-                         "write another TERM; the last that holds decides");
-        while (!in_.at_block_end("END_IF")) in_.skip();
-    }
-    notes_.end_block("END_IF", opened);
-    term.span = in_.span_since(first);
-    if (has_name) terms.push_back(std::move(term));
-    return true;
-}
-
-void Parser::parse_symbolic_body(ast::SymbolicTerm& term) {
-    while (!in_.at_boundary() && !in_.report().full()) {
-        if (in_.take_symbol(";")) continue;
-        if (in_.take("OUT")) {
-            if (parse_outputs(term.outputs)) {
-                in_.end_statement();
-            } else {
-                in_.recover();
-            }
-            continue;
+/// STEP = Name, or its number; STEP IN Group.
+bool ExpressionParser::parse_step_test(ast::Expression& result) {
+    in_.skip();
+    result.kind = ast::Expression::Kind::step;
+    if (in_.take("IN")) {
+        result.value = true;
+        result.name = name_of(in_.token());
+        if (in_.at_symbol("(")) {
+            in_.report().add("E010", in_.token().span, "STEP IN takes the name of one group",
+                             "give the steps one: GROUP Name: steps; and write STEP IN Name");
+            return false;
         }
-        const std::size_t before = in_.position();
-        ast::Statement statement;
-        if (parse_statement(statement)) term.statements.push_back(std::move(statement));
-        if (in_.position() == before) in_.skip();
+        return notes_.expect_name(result.name, "the name of a group", ast::Role::step_or_group);
     }
+    if (in_.at_symbol("<")) {
+        in_.report().add("E010", in_.token().span, "a step is compared with = alone",
+                         "write NOT STEP = Name");
+        return false;
+    }
+    if (!in_.expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
+    const Token target = in_.token();
+    if (in_.at_symbol("=")) {
+        in_.report().add("E010", target.span, "= stands twice", "write it once, as in STEP = Idle");
+        in_.skip();
+        return parse_step_name(result);
+    }
+    return parse_step_name(result);
+}
+
+bool ExpressionParser::parse_step_name(ast::Expression& result) {
+    result.name = name_of(in_.token());
+    if (in_.take("POWER_UP")) return true;
+    if (in_.token().kind != TokenKind::number)
+        return notes_.expect_name(result.name, "the name of a step, or its number", ast::Role::step);
+    in_.skip();
+    return true;
 }
 
 }  // namespace nplc::seqc

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "language/ast.h"
+#include "language/token_stream.h"
+#include "language/value_parser.h"
+
+namespace nplc::seqc {
+
+/// What is no condition, although other languages have it: one message says what is written here instead.
+/// False if there is nothing of the kind; else parsing continues behind it, `result` being a constant.
+
+bool at_comparison(const TokenStream& in);
+/// Start = 1, from its left side `first` on. `is_told`: what is wrong was reported already.
+bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first, ast::Expression& result,
+                       bool is_told);
+
+/// R_TRIG(Start), TON1.Q, Motor.INPOS. Unless it `may_call`, a name and a ( are two conditions.
+bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call);
+
+/// TIMER2.Q; continues with TIMER.Q.
+bool mend_numbered_timer(TokenStream& in);
+
+/// AFTER 3 s
+bool refuse_time_as_condition(TokenStream& in, ValueParser& values, bool in_property,
+                              ast::Expression& result);
+
+/// (NOT Warm FOR 1 s) OR Rain; FOR 200 ms Warm
+bool refuse_misplaced_time(TokenStream& in, ValueParser& values);
+
+}  // namespace nplc::seqc
