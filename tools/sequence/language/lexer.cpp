@@ -171,6 +171,7 @@ class Lexer {
 
     /// Length of the invisible character here, 0 if there is none.
     std::size_t invisible_here() const {
+        if (static_cast<unsigned char>(peek()) < 0x80) return 0;
         const auto found = std::find_if(kInvisible.begin(), kInvisible.end(), [&](std::string_view sign) {
             return source_.substr(at_).starts_with(sign);
         });
