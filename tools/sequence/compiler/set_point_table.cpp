@@ -1,11 +1,13 @@
+#include "compiler/set_point_table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "compiler/actions.h"
 #include "compiler/drive.h"
-#include "compiler/scope.h"
 #include "language/names.h"
 #include "set_points/values.h"
 
@@ -35,14 +37,23 @@ void lay_grid(set_points::SetPoint& point, double low) {
         point.grid_from = low;
 }
 
-}  // namespace
-
-std::uint32_t bits_of(std::int32_t number, const Register& reg) {
-    const auto bits = static_cast<std::uint32_t>(number);
-    return registers::is_32_bit(reg.format) ? bits : bits & 0xFFFFU;
+/// Nobody could set it again.
+bool is_default_on_grid(Report& report, const DeclaredSetPoint& declared) {
+    const set_points::SetPoint& point = declared.point;
+    if (set_points::is_on_grid(point, point.initial)) return true;
+    const std::string unit = point.unit.empty() ? "" : " " + point.unit;
+    report
+        .add("E047", declared.written->value.span,
+             fmt::format("'{}' begins between two steps, so nobody can set it again", point.name),
+             fmt::format("write {}{}: steps are counted from the lower end of the range",
+                         set_points::grid_beside(point, point.initial), unit))
+        .notes.push_back({declared.written->step->span, "the STEP is here"});
+    return false;
 }
 
-void Scope::declare_set_points(const ast::Program& program) {
+}  // namespace
+
+void SetPointTable::declare(const ast::Program& program) {
     for (const ast::SetPoint& written : program.set_points) {
         const std::string_view name = written.name.text;
         const auto twin =
@@ -55,10 +66,11 @@ void Scope::declare_set_points(const ast::Program& program) {
                 .notes.push_back({twin->written->name.span, "the first one is here"});
             continue;
         }
-        if (!is_new_name(written.name)) continue;
+        if (!names_.is_new(written.name)) continue;
         DeclaredSetPoint& declared = set_points_.emplace_back();
         declared.written = &written;
         declared.point.name = name;
+        names_.set_points().push_back(name);
         if (name.size() > kLongestName) {
             report_.add("E027", written.name.span, "the name of a set-point has 32 characters at the most",
                         "the gateway keeps it with the table: choose a shorter one");
@@ -74,29 +86,30 @@ void Scope::declare_set_points(const ast::Program& program) {
 }
 
 /// POWER_UP writes it, like a value of VAR_MOTOR.
-void Scope::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
+void SetPointTable::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
     const ast::SetPoint& written = *declared.written;
-    const Register* target = written.register_number ? reg(*written.register_number) : reg(written.address);
+    const Register* target =
+        written.register_number ? values_.numbered(*written.register_number) : values_.named(written.address);
     declared.is_decided = true;
     declared.is_sound = target != nullptr && declared.is_sound;
     if (target == nullptr) {
-        faulty_.insert(upper(written.name.text));
+        names_.add_faulty(written.name.text);
         return;
     }
-    const auto earlier = std::find_if(motor_variables_.begin(), motor_variables_.end(),
-                                      [&](const Variable& v) { return v.reg == target; });
-    if (earlier != motor_variables_.end()) {
+    const auto earlier = std::find_if(names_.registers().begin(), names_.registers().end(),
+                                      [&](const DeclaredName& v) { return v.reg == target; });
+    if (earlier != names_.registers().end()) {
         report_
             .add("E022", written.name.span,
                  fmt::format("{} has a name already",
                              written.register_number ? target->name : written.address.text),
                  fmt::format("use '{}', or another register", earlier->name))
             .notes.push_back({earlier->span, "declared here"});
-        faulty_.insert(upper(written.name.text));
+        names_.add_faulty(written.name.text);
         declared.is_sound = false;
         return;
     }
-    motor_variables_.push_back({written.name.text, written.name.span, 0, target});
+    names_.registers().push_back({written.name.text, written.name.span, 0, target});
     result_.symbols.motor_names.push_back(
         {std::string(written.name.text), std::string(target->name), target->number, {}});
     declared.is_decided = false;
@@ -105,20 +118,27 @@ void Scope::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
     const Span first = written.name.span;
     const Span last = written.value.span;
     result_.symbols.motor_names.back().initial = declared.point.initial;
-    initial_values_.push_back({target,
-                               0,
-                               bits_of(declared.point.initial, *target),
-                               {first.offset, last.offset + last.length - first.offset},
-                               number});
+    values_.add_initial({target,
+                         0,
+                         bits_of(declared.point.initial, *target),
+                         {first.offset, last.offset + last.length - first.offset},
+                         number});
 }
 
-std::uint8_t Scope::set_point_for(const ast::Value& value, ValueKind kind, const Register* reg) {
+bool SetPointTable::names_one(const ast::Value& value) const {
+    return value.kind == ast::Value::Kind::name &&
+           std::any_of(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& d) {
+               return same_name(d.written->name.text, value.name.text);
+           });
+}
+
+std::uint8_t SetPointTable::number_for(const ast::Value& value, ValueKind kind, const Register* reg) {
     const auto found = std::find_if(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& d) {
         return same_name(d.written->name.text, value.name.text);
     });
     if (found == set_points_.end()) return 0;
     if (!found->is_sound) {
-        ++faulty_names_met_;
+        names_.meet_faulty();
         return 0;
     }
     if (!found->is_decided) {
@@ -135,23 +155,30 @@ std::uint8_t Scope::set_point_for(const ast::Value& value, ValueKind kind, const
     return static_cast<std::uint8_t>(found - set_points_.begin() + 1);
 }
 
-bool Scope::is_set_point(const ast::Value& value) const {
-    return value.kind == ast::Value::Kind::name &&
-           std::any_of(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& d) {
-               return same_name(d.written->name.text, value.name.text);
-           });
+bool SetPointTable::refuse_write(const Register& reg, Span span) {
+    const auto found = std::find_if(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& d) {
+        return d.point.at_power_up && d.reg == &reg;
+    });
+    if (found == set_points_.end()) return false;
+    report_
+        .add("E046", span,
+             fmt::format("{} has the value of the set-point '{}', which the operator sets", reg.name,
+                         found->point.name),
+             "write another register, or make a value of VAR_MOTOR of it")
+        .notes.push_back({found->written->name.span, "declared here"});
+    return true;
 }
 
 /// Its values as literals; a missing unit is that of the others.
-std::optional<ast::SetPoint> Scope::worked_out(const ast::SetPoint& written, const Register* reg) {
+std::optional<ast::SetPoint> SetPointTable::worked_out(const ast::SetPoint& written, const Register* reg) {
     ast::SetPoint result = written;
     for (ast::Value* value : {&result.value, &result.low, &result.high}) {
-        const auto literal = worked_out(*value, reg);
+        const auto literal = values_.worked_out(*value, reg);
         if (!literal) return std::nullopt;
         *value = *literal;
     }
     if (result.step) {
-        const auto literal = worked_out(*result.step, reg);
+        const auto literal = values_.worked_out(*result.step, reg);
         if (!literal) return std::nullopt;
         result.step = *literal;
     }
@@ -167,7 +194,7 @@ std::optional<ast::SetPoint> Scope::worked_out(const ast::SetPoint& written, con
     return result;
 }
 
-bool Scope::decide(DeclaredSetPoint& declared, ValueKind kind, const Register* reg) {
+bool SetPointTable::decide(DeclaredSetPoint& declared, ValueKind kind, const Register* reg) {
     declared.is_decided = true;
     declared.point.kind = kind;
     declared.reg = reg;
@@ -178,21 +205,7 @@ bool Scope::decide(DeclaredSetPoint& declared, ValueKind kind, const Register* r
     return declared.is_sound;
 }
 
-/// A drive that supports both ends may not support values near 0 between them: a speed too low for it.
-bool Scope::is_for_drive_within(const ast::SetPoint& written, const Register& reg, std::int32_t low,
-                                std::int32_t high) {
-    if (drive_ == nullptr) return true;
-    for (const std::int32_t value : {-1, 0, 1}) {
-        const Send send{&reg, 0, bits_of(value, reg), written.low.span};
-        if (value <= low || value >= high || refusal_of(*drive_, send).empty()) continue;
-        report_refusal(send, fmt::format("a {} cannot take all values of {}, those next to 0", motor_name(),
-                                         written.name.text));
-        return false;
-    }
-    return true;
-}
-
-bool Scope::decide_register(DeclaredSetPoint& declared, const Register& reg) {
+bool SetPointTable::decide_register(DeclaredSetPoint& declared, const Register& reg) {
     const auto literal = worked_out(*declared.written, &reg);
     if (!literal) return false;
     const ast::SetPoint& written = *literal;
@@ -203,9 +216,9 @@ bool Scope::decide_register(DeclaredSetPoint& declared, const Register& reg) {
         return false;
     }
     const std::string_view shown = written.name.text;
-    const auto initial = value(written.value, reg, shown);
-    const auto low = value(written.low, reg, shown);
-    const auto high = value(written.high, reg, shown);
+    const auto initial = values_.written_bits(written.value, reg, shown);
+    const auto low = values_.written_bits(written.low, reg, shown);
+    const auto high = values_.written_bits(written.high, reg, shown);
     if (!initial || !low || !high) return false;
     set_points::SetPoint& point = declared.point;
     const auto number = [&](std::uint32_t bits) {
@@ -219,20 +232,19 @@ bool Scope::decide_register(DeclaredSetPoint& declared, const Register& reg) {
     point.initial = number(*initial);
     point.lowest = number(*low);
     point.highest = number(*high);
-    point.steps_per_unit =
-        written.value.is_raw ? 1 : raw_per_unit(reg, model_, length_, point.unit).value_or(1);
+    point.steps_per_unit = written.value.is_raw ? 1 : motor_.per_unit(reg, point.unit).value_or(1);
     if (!written.step) return true;
-    const auto step = raw_per_unit(reg, model_, length_, written.step->unit.text);
+    const auto step = motor_.per_unit(reg, written.step->unit.text);
     const bool same_unit = same_name(written.step->unit.text, point.unit) || written.step->is_raw;
     point.step = written.step->number * (same_unit ? 1 : step.value_or(0) / point.steps_per_unit);
-    const auto per_unit = raw_per_unit(reg, model_, length_, written.low.unit.text);
+    const auto per_unit = motor_.per_unit(reg, written.low.unit.text);
     const bool is_own = same_name(written.low.unit.text, point.unit) || written.low.is_raw || !per_unit;
     lay_grid(point, written.low.number * (is_own ? 1 : *per_unit / point.steps_per_unit));
     return true;
 }
 
 /// For the timer or the counter; 0 has no effect (001 §6.1.7).
-bool Scope::decide_preset(DeclaredSetPoint& declared) {
+bool SetPointTable::decide_preset(DeclaredSetPoint& declared) {
     const auto literal = worked_out(*declared.written, nullptr);
     if (!literal) return false;
     const ast::SetPoint& written = *literal;
@@ -273,7 +285,21 @@ bool Scope::decide_preset(DeclaredSetPoint& declared) {
     return true;
 }
 
-bool Scope::is_sound_range(DeclaredSetPoint& declared) {
+/// A drive that supports both ends may not support values near 0 between them: a speed too low for it.
+bool SetPointTable::is_for_drive_within(const ast::SetPoint& written, const Register& reg, std::int32_t low,
+                                        std::int32_t high) {
+    if (motor_.drive() == nullptr) return true;
+    for (const std::int32_t value : {-1, 0, 1}) {
+        const Send send{&reg, 0, bits_of(value, reg), written.low.span};
+        if (value <= low || value >= high || refusal_of(*motor_.drive(), send).empty()) continue;
+        motor_.report_refusal(send, fmt::format("a {} cannot take all values of {}, those next to 0",
+                                                motor_.name(), written.name.text));
+        return false;
+    }
+    return true;
+}
+
+bool SetPointTable::is_sound_range(DeclaredSetPoint& declared) {
     const ast::SetPoint& written = *declared.written;
     const set_points::SetPoint& point = declared.point;
     if (point.lowest > point.highest) {
@@ -292,40 +318,12 @@ bool Scope::is_sound_range(DeclaredSetPoint& declared) {
     }
     if (!written.step) return true;
     const double raw = point.step * point.steps_per_unit;
-    if (raw >= 0.5 && raw <= point.highest - point.lowest) return is_default_on_grid(declared);
+    if (raw >= 0.5 && raw <= point.highest - point.lowest) return is_default_on_grid(report_, declared);
     report_.add("E047", written.step->span,
                 raw > 0 ? fmt::format("the STEP of '{}' does not fit its range", point.name)
                         : std::string("a STEP is above 0, in a unit of the value"),
                 "leave STEP out: then every value of the range is allowed");
     return false;
-}
-
-/// Nobody could set it again.
-bool Scope::is_default_on_grid(const DeclaredSetPoint& declared) {
-    const set_points::SetPoint& point = declared.point;
-    if (set_points::is_on_grid(point, point.initial)) return true;
-    const std::string unit = point.unit.empty() ? "" : " " + point.unit;
-    report_
-        .add("E047", declared.written->value.span,
-             fmt::format("'{}' begins between two steps, so nobody can set it again", point.name),
-             fmt::format("write {}{}: steps are counted from the lower end of the range",
-                         set_points::grid_beside(point, point.initial), unit))
-        .notes.push_back({declared.written->step->span, "the STEP is here"});
-    return false;
-}
-
-bool Scope::refuse_write(const Register& reg, Span span) {
-    const auto found = std::find_if(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& d) {
-        return d.point.at_power_up && d.reg == &reg;
-    });
-    if (found == set_points_.end()) return false;
-    report_
-        .add("E046", span,
-             fmt::format("{} has the value of the set-point '{}', which the operator sets", reg.name,
-                         found->point.name),
-             "write another register, or make a value of VAR_MOTOR of it")
-        .notes.push_back({found->written->name.span, "declared here"});
-    return true;
 }
 
 }  // namespace nplc::seqc
