@@ -1,8 +1,8 @@
 #include <array>
 
-#include "names.h"
 #include "registers/family.h"
 #include "registers/family_list.h"
+#include "registers/names.h"
 
 namespace nplc::registers {
 

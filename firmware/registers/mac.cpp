@@ -1,6 +1,6 @@
 #include "registers/mac.h"
 
-#include "names.h"
+#include "registers/names.h"
 #include "registers/scale.h"
 #include "tables.h"
 

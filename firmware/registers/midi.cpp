@@ -1,6 +1,6 @@
 #include "registers/midi.h"
 
-#include "names.h"
+#include "registers/names.h"
 
 namespace nplc::registers::midi {
 namespace {

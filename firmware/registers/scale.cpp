@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "names.h"
+#include "registers/names.h"
 
 namespace nplc::registers {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/csv_row.h"
+#include "registers/names.h"
 #include "set_points/recipes.h"
 #include "set_points/values.h"
 #include "toml_files/toml_file.h"
@@ -228,7 +229,7 @@ RecipeReading read_toml(std::string_view text, const Record& record) {
 RecipeFormat format_of(std::string_view path) {
     constexpr std::string_view kEnd = ".toml";
     const std::string_view end = path.substr(path.size() - std::min(path.size(), kEnd.size()));
-    return is_same_recipe(end, kEnd) ? RecipeFormat::toml : RecipeFormat::csv;
+    return registers::same_name(end, kEnd) ? RecipeFormat::toml : RecipeFormat::csv;
 }
 
 std::string missing_values(const Recipe& recipe, const Record& record) {

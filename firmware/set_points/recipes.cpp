@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "registers/names.h"
+
 namespace nplc::set_points {
 
 bool is_same_recipe(std::string_view name, std::string_view other) {
-    const auto capital = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
-    return std::equal(name.begin(), name.end(), other.begin(), other.end(),
-                      [&](char a, char b) { return capital(a) == capital(b); });
+    return registers::same_name(name, other);
 }
 
 std::string recipe_name_problem(std::string_view name) {

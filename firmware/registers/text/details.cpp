@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "names.h"
+#include "registers/names.h"
 #include "text_tables.h"
 
 namespace nplc::registers {

@@ -1,8 +1,8 @@
 #include <utility>
 
 #include "exact.h"
-#include "names.h"
 #include "registers/convert.h"
+#include "registers/names.h"
 #include "registers/scale.h"
 
 namespace nplc::registers {
