@@ -58,7 +58,7 @@ test("only a step that is there is the original of a copy", async () => {
   // A step of a later CALL is one of its own, and its copies are its own.
   const call = [
     { number: 1, name: "A" }, { number: 2, name: "B", made_for: "SEQUENCE Stamp", copy_of: 1 },
-    { number: 3, name: "A_dark", made_for: "copy of 'A' for: Lamp dark", copy_of: 1 }, { number: 4, name: "B_dark", made_for: "copy of 'B' for: Lamp dark", copy_of: 1 },
+    { number: 3, name: "A_dark", made_for: "copy of 'A' for: Lamp dark", copy_of: 1 }, { number: 4, name: "B_dark", made_for: "copy of 'B' for: Lamp dark", copy_of: 2 },
   ];
   assert.deepEqual(of([1, 2, 3, 4], call), { 1: [1, 3], 2: [2, 4] });
   // Names from elsewhere may be anything.

@@ -1,4 +1,4 @@
-// Pages of other sites, messages that are none, too many of everything.
+// Pages of other sites, malformed messages, too many of everything.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { request } from "node:http";
@@ -65,7 +65,7 @@ test("names that are not its own, origins, methods and paths", () =>
     await assert.rejects(foreign.opened);
   }));
 
-test("1,000 messages that are none: answered or sent away, and the others feel nothing", () =>
+test("1,000 malformed messages: answered or sent away, and the others feel nothing", () =>
   withMachine(async (machine) => {
     const page = await openPage(machine.url);
     await painted(page);
