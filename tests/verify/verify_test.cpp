@@ -142,8 +142,9 @@ TEST(Verify, AProofOfNothingIsToldFromOne) {
     }
     EXPECT_EQ(either.judge("WHENEVER OUT0 AND OUT1 THEN IN0", Assume::any).reason,
               "but it says nothing: OUT0 AND OUT1 never holds");
-    for (const char* something : {"WHENEVER OUT1 AND IN0 THEN NOT OUT0", "NEVER OUT0 AND OUT1",
-                                  "OUT1 ONLY AFTER IN0", "ALWAYS POSSIBLE TRUE"}) {
+    for (const char* something :
+         {"WHENEVER OUT1 AND IN0 THEN NOT OUT0", "NEVER OUT0 AND OUT1", "OUT1 ONLY AFTER IN0",
+          "ALWAYS POSSIBLE OUT0", "OUT1 ONLY FROM step = 0 AND IN0"}) {
         const Result result = either.judge(something, Assume::any);
         EXPECT_EQ(result.verdict, Verdict::proved) << something;
         EXPECT_FALSE(result.vacuous) << something;
@@ -169,6 +170,72 @@ TEST(Verify, AProofOfNothingIsToldFromOne) {
               "but it says nothing: OUT1 never holds by itself under the assumptions");
     EXPECT_TRUE(either.judge("NEVER OUT1 AND IN0", Assume::driver).vacuous);
     EXPECT_FALSE(either.judge("NEVER OUT1", Assume::driver).vacuous);
+}
+
+TEST(Verify, WhatNoMachineCouldBreakSaysNothing) {
+    Bench either{{kAny, 1, 1, 1, 2}, {kAny, 0, 1, 0, 1}, {kAny | 1, 0, 1, 0, 1}, {kAny | 1, 1, 1, 1, 2}};
+    const std::string always = " condition always holds, whatever the machine does";
+    for (const auto& [nothing, why] : std::initializer_list<std::pair<const char*, std::string>>{
+             {"OUT1 ONLY AFTER TRUE", "AFTER's" + always},
+             {"OUT1 ONLY AFTER IN0 OR NOT IN0", "AFTER's" + always},
+             {"OUT1 ONLY AFTER OUT1 OR IN0", "it holds whatever the machine does"},
+             {"OUT1 ONLY FROM TIMER.Q",
+              "FROM's condition holds when the first scan begins, whatever the machine does"},
+             {"OUT1 CHANGES ONLY IN TRUE", "IN's" + always},
+             {"OUT1 CHANGES ONLY IN NOT OUT1", "it holds whatever the machine does"},
+             {"EVERY_SCAN FROM OUT1 ENDS IN TRUE", "ENDS IN's" + always},
+             {"EVERY_SCAN FROM IN0 AND OUT1 ENDS IN IN0", "it holds whatever the machine does"},
+             {"BETWEEN OUT1 AND OUT0 TRUE STAYS ON", "the STAYS" + always},
+             {"BETWEEN OUT1 AND (NOT OUT1) OUT1 STAYS ON", "it holds whatever the machine does"},
+             {"BETWEEN OUT1 AND OUT1 OUT0 STAYS ON", "BETWEEN never begins"},
+             {"WHENEVER OUT1 THEN TRUE", "THEN's" + always},
+             {"WHENEVER OUT1 AND IN0 THEN IN0", "it holds whatever the machine does"},
+             {"WHENEVER OUT1 THEN TRUE WITHIN 20 ms", "THEN's" + always},
+             {"WHENEVER OUT1 FOR 20 ms THEN OUT1", "it holds whatever the machine does"},
+             {"WHENEVER OUT0 FOLLOWED BY OUT1 THEN OUT1 OR IN0", "it holds whatever the machine does"},
+             {"NEVER NOT OUT1 WHILE OUT1 FOR 20 ms", "it holds whatever the machine does"},
+             {"TRUE IS REACHABLE", "its" + always},
+             {"ALWAYS POSSIBLE TRUE", "its" + always},
+             {"AFTER OUT1 ALWAYS POSSIBLE OUT1 OR OUT0", "it holds whatever the machine does"}}) {
+        for (const Assume assume : {Assume::any, Assume::driver}) {
+            const Result result = either.judge(nothing, assume);
+            EXPECT_EQ(result.verdict, Verdict::proved) << nothing;
+            EXPECT_TRUE(result.vacuous) << nothing;
+            EXPECT_EQ(result.reason, "but it says nothing: " + why) << nothing;
+        }
+    }
+    either.assuming("ASSUME NEVER IN0;");
+    EXPECT_EQ(either.judge("WHENEVER OUT0 THEN NOT IN0", Assume::driver).reason,
+              "but it says nothing: the assumptions about inputs alone rule it out");
+}
+
+TEST(Verify, WhatIsPossibleByWayOfErrorAloneIsToldApart) {
+    // Step 0: IN0 -> step 1, where all ends. ERROR leads to step 2, from there IN1 with a reset to step 0.
+    constexpr std::uint8_t kError = 0x80;
+    constexpr std::uint8_t kReset = 0x61;
+    for (const Assume assume : {Assume::any, Assume::driver}) {
+        Bench ends{{kAny, 1, 1, 1, 1},
+                   {kAny, kError, 0, 2, 2},
+                   {kAny | 1, kError, 0, 2, 2},
+                   {kAny | 2, kError | 2, 2, 0, 0, 0, kReset},
+                   {kAny | 2, 2, 2, 0, 0, 0, kReset}};
+        const Result back = ends.judge("ALWAYS POSSIBLE step = 0", assume);
+        EXPECT_EQ(back.verdict, Verdict::proved);
+        EXPECT_TRUE(back.only_by_error);
+        EXPECT_EQ(back.reason,
+                  "but only by way of ERROR: from step 1 nothing leads there unless the motor gets one");
+        EXPECT_TRUE(ends.judge("AFTER OUT0 ALWAYS POSSIBLE step = 0", assume).only_by_error);
+        EXPECT_TRUE(ends.judge("OUT1 IS REACHABLE", assume).only_by_error);
+        for (const char* plain :
+             {"AFTER OUT1 ALWAYS POSSIBLE OUT0", "ALWAYS POSSIBLE OUT0", "OUT0 IS REACHABLE"}) {
+            const Result result = ends.judge(plain, assume);
+            EXPECT_EQ(result.verdict, Verdict::proved) << plain;
+            EXPECT_FALSE(result.only_by_error) << plain << result.reason;
+            EXPECT_EQ(result.reason, "") << plain;
+        }
+        ends.assuming("ASSUME NEVER ERROR;");
+        EXPECT_EQ(ends.verdict("ALWAYS POSSIBLE step = 0", assume), Verdict::broken);
+    }
 }
 
 TEST(Verify, InputsThatKeepTheirLevelsLeaveWhatIsAlwaysPossible) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "error_ways.h"
 #include "guaranteed_reachability.h"
 #include "monitor.h"
 #include "preset_values.h"
@@ -113,6 +114,27 @@ Decider::Finding Decider::or_tried(Finding open, const Explorer& explorer, const
 
 bool Decider::is_reached_with_all(std::size_t target) const {
     return !has_ranges() || (coarse_->has_all_edges() && surely_reached(*coarse_, targets_[target], held_));
+}
+
+std::optional<Played> Decider::course_to_only_by_error(std::size_t target) const {
+    constexpr int kMostCourses = 20;
+    if (!coarse_->has_all_edges()) return std::nullopt;
+    const ErrorWays ways(*coarse_, targets_[target]);
+    if (!ways.course_to_only_by_error()) return std::nullopt;
+    Excluded excluded(*coarse_);
+    Finding finding =
+        tried(excluded, [&, left = kMostCourses](Excluded& known) mutable -> std::optional<Way> {
+            if (left-- == 0) return std::nullopt;
+            auto scans = ways.course_to_only_by_error(&known);
+            if (!scans) return std::nullopt;
+            return Way{.scans = std::move(*scans)};
+        });
+    return std::move(finding.played);
+}
+
+bool Decider::is_reached_only_by_error(std::size_t target) const {
+    return coarse_->has_all_edges() &&
+           ErrorWays(*coarse_, targets_[target]).lead_from_power_up_only_by_error();
 }
 
 const Explorer& Decider::fine() {

@@ -40,6 +40,10 @@ class Decider {
     Finding missed_deadline(const Property& property);
     Finding remembered(const Property& property);
     Finding stuck_outside(std::size_t index);
+    /// A course after which the target can be reached by way of ERROR alone, if one was found.
+    std::optional<Played> course_to_only_by_error(std::size_t target) const;
+    /// Whether no course without ERROR reaches the target.
+    bool is_reached_only_by_error(std::size_t target) const;
 
     const Explorer& coarse() const { return *coarse_; }
 

@@ -70,6 +70,16 @@ std::string never_holds(const Property& property) {
     }
 }
 
+constexpr unsigned kViews = 64 * 128;
+
+View view_of(unsigned number) {
+    return {.step = static_cast<std::uint8_t>(number % 64U),
+            .outputs = static_cast<std::uint8_t>(number / 64U % 16U),
+            .timer_zero = (number & 1024U) != 0,
+            .counter_zero = (number & 2048U) != 0,
+            .moving = (number & 4096U) != 0};
+}
+
 /// The same property without what fulfils it.
 Property unfulfilled(Property property) {
     if (property.form != Form::stays && property.form != Form::followed_by) property.then = {};
@@ -90,29 +100,133 @@ std::uint64_t steps_of(const Machine& machine) {
     return steps;
 }
 
-/// Why nothing can break a NEVER or an ALWAYS, whatever is in the table's steps; empty if something can.
-std::string why_ruled_out(const Machine& machine, const Property& property) {
-    const Target target{.condition = &property.condition, .negated = property.form == Form::always};
-    const std::uint64_t steps = steps_of(machine);
-    bool is_there_in_a_step = false;
-    bool is_there = false;
-    for (unsigned number = 0; number < 64U * 128U; ++number) {
-        const View view{.step = static_cast<std::uint8_t>(number % 64U),
-                        .outputs = static_cast<std::uint8_t>(number / 64U % 16U),
-                        .timer_zero = (number & 1024U) != 0,
-                        .counter_zero = (number & 2048U) != 0,
-                        .moving = (number & 4096U) != 0};
-        const ImageSet images = target.images(view);
-        is_there = is_there || images.any();
-        if (images.none() || ((steps >> view.step) & 1U) == 0) continue;
-        is_there_in_a_step = true;
-        if ((images & machine.permitted()).any()) return "";
+/// What could break a property, by the images of single scans: all that any machine could do in some steps.
+class Breaking {
+  public:
+    explicit Breaking(const Property& property)
+        : property_(property), at_power_up_(images_where(property.then, {})) {
+        if (property.form == Form::changes_only_in) add_change(ImageSet{1}, {});
     }
-    if (is_there_in_a_step) return "the assumptions about inputs alone rule it out";
-    if (is_there) return "it asks for a step that the table does not have";
-    return property.form == Form::always
-               ? "its condition always holds, whatever the machine does"
-               : "its condition contradicts itself, and never holds whatever the machine does";
+
+    void add(const View& view, const ImageSet& permitted) {
+        const auto where = [&](const Condition& condition) { return images_where(condition, view); };
+        const ImageSet c = where(property_.condition) & permitted;
+        switch (property_.form) {
+            case Form::never:
+                return add_scan(c);
+            case Form::always:
+            case Form::reachable:
+            case Form::always_possible:
+                return add_scan(~c & permitted);
+            case Form::whenever:
+            case Form::only_after:
+                return add_scan(c & ~where(property_.then));
+            case Form::never_while:
+                return add_scan(c & where(property_.then));
+            case Form::after_possible:
+                return add_scan(~c & permitted & where(property_.then));
+            case Form::stays:
+                return add_scan(~where(property_.then) & ~where(property_.third) & permitted);
+            case Form::followed_by:
+                return add_scan(where(property_.then) & ~where(property_.third) & permitted);
+            case Form::only_after_both:
+                return add_scan(c);
+            case Form::changes_only_in:
+                return add_change(permitted, view);
+            case Form::scan_ends:  // both conditions use the inputs of the same scan
+                first_ |= c;
+                second_ |= ~where(property_.then) & permitted;
+                break;
+            case Form::only_from:
+                first_ |= c;
+                second_ |= ~where(property_.then) & permitted;
+                begins_without_ = begins_without_ || (permitted & ~at_power_up_).any();
+                break;
+        }
+        if (begins_without_ || property_.form == Form::scan_ends)
+            can_be_ = can_be_ || (first_ & second_).any();
+    }
+
+    bool can_be() const { return can_be_; }
+
+  private:
+    void add_scan(const ImageSet& images) { can_be_ = can_be_ || images.any(); }
+    /// It differs between two scans in neither of which IN's condition holds.
+    void add_change(const ImageSet& images, const View& view) {
+        const ImageSet elsewhere = images & ~images_where(property_.then, view);
+        const ImageSet c = images_where(property_.condition, view);
+        first_ |= elsewhere & c;
+        second_ |= elsewhere & ~c;
+        can_be_ = can_be_ || (first_.any() && second_.any());
+    }
+
+    const Property& property_;
+    ImageSet at_power_up_;
+    ImageSet first_;
+    ImageSet second_;
+    bool begins_without_ = false;
+    bool can_be_ = false;
+};
+
+bool is_always(bool value, const Condition& condition) {
+    for (unsigned number = 0; number < kViews; ++number) {
+        const ImageSet images = images_where(condition, view_of(number));
+        if (value ? !images.all() : images.any()) return false;
+    }
+    return true;
+}
+
+/// The condition that is asked of what the property is about, and what it is called.
+std::string what_always_holds(const Property& property) {
+    const auto said = [](const Condition& condition, const char* name, bool value = true) {
+        return is_always(value, condition)
+                   ? fmt::format("{} condition always holds, whatever the machine does", name)
+                   : "it holds whatever the machine does";
+    };
+    switch (property.form) {
+        case Form::never:
+            if (property.is_implied) return said(property.condition.operands.back(), "THEN's", false);
+            return "its condition contradicts itself, and never holds whatever the machine does";
+        case Form::always:
+        case Form::reachable:
+        case Form::always_possible:
+            return "its condition always holds, whatever the machine does";
+        case Form::whenever:
+            return said(property.then, "THEN's");
+        case Form::only_after:
+            return said(property.then, "AFTER's");
+        case Form::only_from:
+            return "FROM's condition holds when the first scan begins, whatever the machine does";
+        case Form::changes_only_in:
+            return said(property.then, "IN's");
+        case Form::scan_ends:
+            return said(property.then, "ENDS IN's");
+        case Form::followed_by:
+            return said(property.third, "THEN's");
+        case Form::stays:
+            return said(property.third, "the STAYS");
+        default:
+            return "it holds whatever the machine does";
+    }
+}
+
+/// Why nothing can break a property, whatever is in the table's steps; empty if something can.
+std::string why_ruled_out(const Machine& machine, const Property& property) {
+    const std::uint64_t steps = steps_of(machine);
+    Breaking permitted(property);
+    Breaking in_a_step(property);
+    Breaking anywhere(property);
+    for (unsigned number = 0; number < kViews; ++number) {
+        const View view = view_of(number);
+        anywhere.add(view, ~ImageSet{});
+        if (((steps >> view.step) & 1U) == 0) continue;
+        in_a_step.add(view, ~ImageSet{});
+        permitted.add(view, machine.permitted());
+        if (permitted.can_be()) return "";
+    }
+    if (in_a_step.can_be()) return "the assumptions about inputs alone rule it out";
+    if (anywhere.can_be()) return "it asks for a step that the table does not have";
+    return what_always_holds(property);
 }
 
 void add_parts(const Condition& condition, std::vector<const Condition*>& parts) {
@@ -149,24 +263,20 @@ Target subject_of(const Property& property) {
 }
 
 std::string why_vacuous(const Explorer& explorer, const Property& property, bool is_met) {
-    switch (property.form) {
-        case Form::reachable:
-        case Form::always_possible:
-            return "";
-        case Form::never:
-            if (property.is_implied) return is_met || !explorer.complete() ? "" : never_holds(property);
-            [[fallthrough]];
-        case Form::always:
-            if (std::string why = why_ruled_out(explorer.machine(), property); !why.empty()) return why;
-            return property.form == Form::never ? part_that_never_holds(explorer, property) : "";
-        case Form::whenever:
-        case Form::never_while:
-        case Form::after_possible:
-            return is_met || !explorer.complete() ? "" : never_holds(property);
-        default:
-            if (!explorer.has_all_edges() || breaking_course(explorer, unfulfilled(property))) return "";
+    const bool is_plain = property.form == Form::always || property.form == Form::reachable ||
+                          property.form == Form::always_possible ||
+                          (property.form == Form::never && !property.is_implied);
+    const bool is_asked_of_scans = property.form == Form::never || property.form == Form::whenever ||
+                                   property.form == Form::never_while ||
+                                   property.form == Form::after_possible;
+    if (is_asked_of_scans && !is_plain) {
+        if (!is_met && explorer.complete()) return never_holds(property);
+    } else if (!is_plain) {
+        if (explorer.has_all_edges() && !breaking_course(explorer, unfulfilled(property)))
             return never_holds(property);
     }
+    if (std::string why = why_ruled_out(explorer.machine(), property); !why.empty()) return why;
+    return is_plain && property.form == Form::never ? part_that_never_holds(explorer, property) : "";
 }
 
 }  // namespace nplc::verify

@@ -243,6 +243,24 @@ void note_vacuous(Result& result, const Explorer& explorer, const Property& prop
     result.reason = "but it says nothing: " + why;
 }
 
+/// A proof of what is possible counts ways on which the motor gets an ERROR.
+void note_only_by_error(Result& result, const Decider& decider, const Property& property, std::size_t target,
+                        const Names& names) {
+    if (property.form == Form::reachable) {
+        if (!decider.is_reached_only_by_error(target)) return;
+        result.reason = "but only by way of ERROR: no course without one leads to such a scan";
+    } else if (property.form == Form::always_possible || property.form == Form::after_possible) {
+        const std::optional<Played> after = decider.course_to_only_by_error(target);
+        if (!after) return;
+        result.reason = fmt::format(
+            "but only by way of ERROR: from step {} nothing leads there unless the motor gets one",
+            step_name(names, after->course.back().after.step));
+    } else {
+        return;
+    }
+    result.only_by_error = true;
+}
+
 bool name_moving(const std::vector<Property>& properties) {
     return std::any_of(properties.begin(), properties.end(), [](const Property& property) {
         return names_moving(property.condition) || names_moving(property.then) ||
@@ -280,8 +298,9 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
         judge_checks(decider, names, options, report.results);
     for (std::size_t i = 0; i < properties.size(); ++i) {
         Result& result = report.results.emplace_back(judged(decider, properties[i], i, options.assume));
-        if (result.verdict == Verdict::proved)
-            note_vacuous(result, decider.coarse(), properties[i], properties.size() + i);
+        if (result.verdict != Verdict::proved) continue;
+        note_vacuous(result, decider.coarse(), properties[i], properties.size() + i);
+        if (!result.vacuous) note_only_by_error(result, decider, properties[i], i, names);
     }
     return report;
 }

@@ -35,7 +35,7 @@ std::string case_of(const verify::Result& result, const std::string& file, const
     std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}{}: {}\" file=\"{}\"",
                                    escaped(file), result.code.empty() ? "" : result.code + " ",
                                    escaped(result.name), escaped(result.text), escaped(file));
-    if (result.verdict == Verdict::proved) return text + "/>\n";
+    if (result.verdict == Verdict::proved && result.reason.empty()) return text + "/>\n";
     const bool fails = counts(result, Verdict::broken);
     const char* element = fails ? "failure" : counts(result, Verdict::undecided) ? "error" : "system-out";
     const std::string story = result.course ? verify::story_of(result, names) : "";

@@ -135,6 +135,7 @@ Json document_of(const verify::Report& report, const Plays& plays, const VerifyA
         if (!result.code.empty()) added["code"] = result.code;
         added["verdict"] = word_of(result.verdict);
         if (result.vacuous) added["vacuous"] = true;
+        if (result.only_by_error) added["only_by_error"] = true;
         added["severity"] = result.severity == verify::Severity::fault ? "fault" : "advice";
         added["property"] = result.text;
         if (!result.reason.empty()) added["reason"] = result.reason;

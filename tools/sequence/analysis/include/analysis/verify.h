@@ -30,11 +30,12 @@ struct Result {
     std::string text{};                  ///< the property, or what was checked
     Verdict verdict = Verdict::undecided;
     Severity severity = Severity::fault;
-    std::string reason{};    ///< why it is broken or undecided
-    std::string conflict{};  ///< undecided: why the last course that was tried is impossible
-    bool vacuous = false;    ///< proved vacuously: its condition never occurs
-    std::string allowed{};   ///< for a finding of a check that was switched off in its step: the reason
-    bool is_late = false;    ///< the course ends some time after its last scan, at a deadline
+    std::string reason{};        ///< why it is broken or undecided; of a proof, what is to be known of it
+    std::string conflict{};      ///< undecided: why the last course that was tried is impossible
+    bool vacuous = false;        ///< proved vacuously: its condition never occurs
+    bool only_by_error = false;  ///< proved possible, but somewhere only by ways on which an ERROR begins
+    std::string allowed{};       ///< for a finding of a check that was switched off in its step: the reason
+    bool is_late = false;        ///< the course ends some time after its last scan, at a deadline
     std::optional<Course> course{};       ///< the shortest counterexample, or course to what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
     std::vector<SetValue> set_values{};   ///< the same by the program's names
