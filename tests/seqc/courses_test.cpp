@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -87,6 +88,60 @@ TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     for (const Json& result : results()) {
         EXPECT_EQ(result.value("vacuous", false), result["name"] == "Nothing") << result["name"];
     }
+}
+
+TEST_F(Courses, AWayThroughErrorAloneIsToldInWordsAndInJson) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"
+          "STEP Idle: IF IN0 THEN NEXT := Done; END_IF END_STEP\n"
+          "STEP Done: OUT OUT0; ALLOW W019 BECAUSE 'a test'; END_STEP\n"
+          "STEP Fault: OWN ERROR; OUT OUT1; IF ANY ERROR AND IN1 THEN RESET_ERROR; NEXT := Idle; END_IF "
+          "END_STEP\n"
+          "PROPERTY Ready_Again: ALWAYS POSSIBLE STEP = Idle;\n"
+          "PROPERTY Restarts: AFTER OUT1 ALWAYS POSSIBLE OUT0;\nEND_PROGRAM\n");
+    run("verify p.seq");
+    EXPECT_NE(read("out").find(
+                  "proved    Ready_Again: ALWAYS POSSIBLE STEP = Idle\n  but only by way of ERROR: from "
+                  "step Done nothing leads there unless the motor gets one\n"),
+              std::string::npos)
+        << read("out");
+    run("verify --json --junit p.xml p.seq");
+    for (const Json& result : results())
+        EXPECT_EQ(result.value("only_by_error", false), result["name"] == "Ready_Again") << result["name"];
+    EXPECT_NE(read("p.xml").find("<system-out>but only by way of ERROR"), std::string::npos);
+}
+
+// With 1 part no way leads to a second one; each count is a state of its own, too many to be kept.
+TEST_F(Courses, AWideRangeOfCountsHidesNothingThatAFewPartsBreak) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\nSET_POINT Parts := 1 RANGE 1 .. 9999;\nON ERROR NEXT := Fault;\n"
+          "STEP Idle: TAKES SET_POINTS; IF IN0 THEN COUNTER := Parts; NEXT := First; END_IF END_STEP\n"
+          "STEP First: IF COUNTER.Q THEN NEXT := Second; ELSIF IN1 THEN COUNT_DOWN; NEXT := Gap; END_IF "
+          "END_STEP\n"
+          "STEP Gap: IF NOT IN1 THEN NEXT := First; END_IF END_STEP\n"
+          "STEP Second: IF IN0 THEN COUNTER := Parts; NEXT := Box; END_IF END_STEP\n"
+          "STEP Box: IF IN1 THEN COUNT_DOWN; NEXT := Full; END_IF END_STEP\n"
+          "STEP Full: IF COUNTER.Q THEN NEXT := Idle; ELSIF NOT IN1 THEN NEXT := More; END_IF END_STEP\n"
+          "STEP More: OUT OUT0; IF IN1 THEN COUNT_DOWN; NEXT := Full; END_IF END_STEP\n"
+          "STEP Fault: OWN ERROR; IF ANY ERROR AND IN2 THEN RESET_ERROR; NEXT := Idle; END_IF END_STEP\n"
+          "PROPERTY Kept: NEVER STEP = More AND COUNTER.Q;\nPROPERTY Single: NEVER OUT0;\n"
+          "PROPERTY Lit: NEVER OUT1;\nPROPERTY Second: OUT0 IS REACHABLE;\nEND_PROGRAM\n");
+    EXPECT_EQ(run("verify --json p.seq"), 1);
+    std::map<std::string, std::string> verdicts;
+    std::vector<std::string> order;
+    for (const Json& result : results()) {
+        if (result.contains("code")) continue;
+        order.push_back(result["name"]);
+        verdicts[order.back()] = result["verdict"];
+        if (order.back() == "Single" || order.back() == "Second") {
+            const char* count = order.back() == "Single" ? "with Parts = 2" : "with Parts = 1";
+            EXPECT_NE(std::string(result["reason"]).find(count), std::string::npos) << result["reason"];
+        }
+    }
+    EXPECT_EQ(verdicts["Single"], "broken");
+    EXPECT_NE(verdicts["Kept"], "broken");
+    EXPECT_NE(verdicts["Lit"], "broken");
+    EXPECT_EQ(order, (std::vector<std::string>{"Kept", "Single", "Lit", "Second"}));
 }
 
 TEST_F(Courses, JsonHasTheOrdersOfACourse) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "sequencer/table.h"
@@ -24,6 +25,8 @@ using verify::Verdict;
 /// may again be undecided.
 constexpr std::size_t kMostCounts = 1024;
 constexpr std::size_t kMostOpen = 16;
+/// Above it single counts are tried before the explorer takes all of them.
+constexpr std::size_t kFewCounts = 64;
 /// Number of values whose range limits are combined completely.
 constexpr std::size_t kMostCombined = 3;
 
@@ -53,8 +56,14 @@ class AllValues {
     verify::Report run() {
         const verify::Report own = verified(defaults_, properties_, how_);
         if (points_.empty()) return own;
-        report_ = find_marks() ? verified(marks_, properties_, ranged(true)) : own;
-        for (Result& result : report_.results) name_values(result);
+        if (find_marks()) {
+            std::vector<std::optional<Result>> broken = broken_with_few(own);
+            report_ = verified(marks_, left_of(broken), ranged(true));
+            for (Result& result : report_.results) name_values(result);
+            join(std::move(broken));
+        } else {
+            report_ = own;
+        }
         note_broken(own, nullptr);
         try_ends();
         if (!marks_.empty()) try_counts();
@@ -109,6 +118,61 @@ class AllValues {
         return options;
     }
 
+    /// What large ranges of counts break is mostly seen with a few parts: a course of few scans, and explored
+    /// without a state for each count. One for each property, if it is broken.
+    std::vector<std::optional<Result>> broken_with_few(const verify::Report& own) const {
+        std::vector<std::optional<Result>> broken(properties_.size());
+        if (count_of_counts() <= kFewCounts) return broken;
+        take_broken(broken, own, nullptr);
+        verify::Options options = ranged(false);
+        options.checks = false;
+        for (const std::int32_t more : {0, 1, 2, 3}) {
+            Presets values = marks_;
+            Presets shown = defaults_;
+            for (std::size_t i = 0; i < points_.size(); ++i) {
+                if (!is_count(i)) continue;
+                values[i] = shown[i] = std::min(points_[i].lowest + more, points_[i].highest);
+            }
+            take_broken(broken, verified(values, left_of(broken), options), &shown);
+        }
+        return broken;
+    }
+
+    /// The results of `tried` are those of the properties that are left, in order.
+    void take_broken(std::vector<std::optional<Result>>& broken, const verify::Report& tried,
+                     const Presets* values) const {
+        std::vector<std::size_t> left;
+        for (std::size_t i = 0; i < broken.size(); ++i) {
+            if (!broken[i]) left.push_back(i);
+        }
+        std::size_t next = 0;
+        for (const Result& result : tried.results) {
+            if (!result.code.empty()) continue;
+            const std::size_t property = left[next++];
+            if (result.verdict != Verdict::broken) continue;
+            broken[property] = result;
+            if (values != nullptr) add_values(*broken[property], values_in(result, *values));
+        }
+    }
+
+    std::vector<verify::Property> left_of(const std::vector<std::optional<Result>>& broken) const {
+        std::vector<verify::Property> left;
+        for (std::size_t i = 0; i < broken.size(); ++i) {
+            if (!broken[i]) left.push_back(properties_[i]);
+        }
+        return left;
+    }
+
+    /// Into the report, in the order of the properties.
+    void join(std::vector<std::optional<Result>> broken) {
+        auto at = std::find_if(report_.results.begin(), report_.results.end(),
+                               [](const Result& result) { return result.code.empty(); });
+        for (std::optional<Result>& result : broken) {
+            if (result) at = report_.results.insert(at, std::move(*result));
+            ++at;
+        }
+    }
+
     /// Adds the values with which a course found with ranges breaks the property.
     void name_values(Result& result) const {
         if (result.verdict == Verdict::broken && !result.presets.empty())
@@ -145,7 +209,9 @@ class AllValues {
             // A step that is unreachable with some values may be reachable with others.
             if (result.verdict != Verdict::broken || result.code == "V001") continue;
             Result found = result;
-            if (values != nullptr) add_values(found, *values);
+            const bool is_unreachable = result.code.empty() && !result.course;
+            if (values != nullptr || is_unreachable)
+                add_values(found, values != nullptr ? *values : defaults_);
             const auto end = report_.results.end();
             const auto known = std::find_if(report_.results.begin(), end,
                                             [&](const Result& r) { return is_same(r, result); });
@@ -193,6 +259,8 @@ class AllValues {
         for (Result& result : report_.results) {
             if (result.verdict != Verdict::proved) continue;
             result.verdict = Verdict::undecided;
+            result.vacuous = false;
+            result.only_by_error = false;
             result.reason = fmt::format(
                 "it holds at the ends of the ranges; a RANGE of a count that goes to {} is too large to be "
                 "decided between them: let it end sooner, as RANGE 1 .. 2000 does, or look at the defaults "
@@ -231,6 +299,7 @@ class AllValues {
         verify::Options options = ranged(false);
         options.checks = false;
         std::map<std::string, std::size_t> left_open;
+        std::map<std::string, Result> proved;
         for (std::size_t number = 0; number < count && !open.empty(); ++number) {
             const Presets values = combination(number);
             const verify::Report tried = verified(values, open, options);
@@ -238,6 +307,7 @@ class AllValues {
             for (const Result& result : tried.results) {
                 const bool is_open = result.verdict == Verdict::undecided;
                 if (is_open) ++left_open[result.name];
+                if (result.verdict == Verdict::proved) note_proved(proved, result);
                 const bool is_over = result.verdict == Verdict::broken || left_open[result.name] >= kMostOpen;
                 if (is_over) std::erase_if(open, [&](const auto& p) { return p.name == result.name; });
             }
@@ -246,10 +316,17 @@ class AllValues {
             if (left_open[property.name] != 0) continue;
             for (Result& result : report_.results) {
                 if (!result.code.empty() || result.name != property.name) continue;
-                result.verdict = Verdict::proved;
-                result.reason.clear();
+                result = proved[property.name];
             }
         }
+    }
+
+    /// A proof says nothing if it does with none of the counts, and is by way of ERROR if it is with one.
+    static void note_proved(std::map<std::string, Result>& proved, const Result& result) {
+        const auto [known, is_new] = proved.try_emplace(result.name, result);
+        const bool says_more = known->second.vacuous && !result.vacuous;
+        if (!is_new && !known->second.only_by_error && (says_more || result.only_by_error))
+            known->second = result;
     }
 
     void note_counts(const verify::Report& tried, const Presets& counts) {
