@@ -65,6 +65,15 @@ std::optional<std::uint16_t> report_no_time(Span span, Report& report, TimeFor u
     return std::uint16_t{1};
 }
 
+/// Of a number without a unit, which is most likely meant in milliseconds.
+std::string in_milliseconds(const ast::Value& value) {
+    const bool is_plain = value.kind == ast::Value::Kind::literal && value.unit.text.empty() &&
+                          !value.is_raw && value.number >= 1 && value.number <= kLongest &&
+                          std::floor(value.number) == value.number;
+    if (!is_plain) return "write it as T#500ms";
+    return fmt::format("write T#{}ms if these are milliseconds", value.number);
+}
+
 }  // namespace
 
 std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report, TimeFor use) {
@@ -79,7 +88,7 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
                               : "the timer needs a time",
                    minutes    ? "write T#1m, or 60 s"
                    : is_short ? "write 1 ms or more"
-                              : "write it as T#500ms");
+                              : in_milliseconds(value));
         return std::nullopt;
     }
     if (seconds) ms *= 1000;

@@ -37,15 +37,16 @@ void lay_grid(set_points::SetPoint& point, double low) {
         point.grid_from = low;
 }
 
-/// Nobody could set it again.
+/// Else an operator who has changed it could not set it again.
 bool is_default_on_grid(Report& report, const DeclaredSetPoint& declared) {
     const set_points::SetPoint& point = declared.point;
     if (set_points::is_on_grid(point, point.initial)) return true;
     const std::string unit = point.unit.empty() ? "" : " " + point.unit;
     report
         .add("E047", declared.written->value.span,
-             fmt::format("'{}' begins between two steps, so nobody can set it again", point.name),
-             fmt::format("write {}{}: steps are counted from the lower end of the range",
+             fmt::format("the default of '{}' is no whole number of STEPs above the lower end of its RANGE",
+                         point.name),
+             fmt::format("write {}{}: an operator who changed it could not set it again",
                          set_points::grid_beside(point, point.initial), unit))
         .notes.push_back({declared.written->step->span, "the STEP is here"});
     return false;

@@ -241,7 +241,7 @@ class Fixer {
         }
         if (is("E003") && says("decimal point"))
             add("Write " + between(d_.help, "write ", ""), d_.span, between(d_.help, "write ", ""));
-        if (is("E043") && advises("write it as T#500ms")) {
+        if (is("E043") && advises("if these are milliseconds")) {
             const std::string number(program_.text(d_.span));
             const bool plain =
                 std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <unordered_set>
 #include <utility>
 
@@ -209,12 +210,33 @@ class Lexer {
         if (has_exponent && !is_digit(peek())) ++at_;
         while (is_word(peek())) ++at_;
         const std::string_view written = source_.substr(start, std::min<std::size_t>(at_ - start, 40));
-        report_.add("E003", span_from(start), fmt::format("'{}' is not a value", written),
-                    is_hex         ? fmt::format("write 16#{}", written.substr(2))
-                    : has_exponent ? "a number has no exponent: write it out"
-                                   : fmt::format("a number has no type: write {}", number));
+        const std::string help = is_hex         ? hexadecimal(written.substr(2))
+                                 : has_exponent ? written_out(written)
+                                                : fmt::format("a number has no type: write {}", number);
+        report_.add("E003", span_from(start), fmt::format("'{}' is not a value", written), help);
         tokens_.push_back({TokenKind::number, number, span_from(start)});
         return true;
+    }
+
+    static std::string hexadecimal(std::string_view digits) {
+        const bool is_sound = std::all_of(digits.begin(), digits.end(), [](char c) {
+            return c == '_' || is_digit(c) ||
+                   std::string_view("abcdefABCDEF").find(c) != std::string_view::npos;
+        });
+        if (!is_sound) return "the digits of a hexadecimal number are 0 to 9 and A to F, as in 16#1F";
+        return fmt::format("write 16#{}", digits);
+    }
+
+    static std::string written_out(std::string_view written) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), value);
+        const bool is_read = error == std::errc() && end == written.data() + written.size();
+        if (!is_read || value >= 1e10 || (value != 0 && value < 1e-4))
+            return "a number has no exponent: write it out";
+        std::string digits = fmt::format("{:.8f}", value);
+        digits.erase(digits.find_last_not_of('0') + 1);
+        if (digits.back() == '.') digits.pop_back();
+        return fmt::format("a number has no exponent: write {}", digits);
     }
 
     /// 15'000

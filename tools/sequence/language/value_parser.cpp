@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "language/names.h"
+#include "language/number_mistakes.h"
 #include "language/reserved_words.h"
 
 namespace nplc::seqc {
@@ -83,42 +84,6 @@ ast::Value wrapped(ast::Value::Kind kind, ast::Value operand) {
     result.span = operand.span;
     result.operands.push_back(std::move(operand));
     return result;
-}
-
-/// 80,5 mm
-bool refuse_decimal_comma(TokenStream& in, const Token& first) {
-    const Token& last = in.last();
-    const Token& digits = in.token(1);
-    const bool touches = in.token().span.offset == last.span.offset + last.span.length &&
-                         digits.span.offset == in.token().span.offset + 1;
-    if (!in.at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number || !touches)
-        return false;
-    in.skip(2);
-    const bool maybe_thousands = digits.text.size() == 3 && last.text != "0";
-    in.report().add("E003", in.span_since(first), "a number has a decimal point",
-                    maybe_thousands
-                        ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
-                        : fmt::format("write {}.{}", last.text, digits.text));
-    return true;
-}
-
-/// T#0,8s
-bool refuse_decimal_comma_in_time(TokenStream& in, const Token& literal) {
-    const Token digits = in.token(1);
-    const std::uint32_t comma = literal.span.offset + literal.span.length;
-    if (!in.at_symbol(",") || in.token().span.offset != comma || digits.kind != TokenKind::number ||
-        digits.span.offset != comma + 1)
-        return false;
-    in.skip(2);
-    std::string_view unit;
-    if (in.token().kind == TokenKind::identifier &&
-        in.token().span.offset == digits.span.offset + digits.span.length) {
-        unit = in.token().text;
-        in.skip();
-    }
-    in.report().add("E004", in.span_since(literal), "a number has a decimal point",
-                    fmt::format("write {}.{}{}", literal.text, digits.text, unit));
-    return true;
 }
 
 }  // namespace
@@ -248,6 +213,7 @@ bool ValueParser::parse_literal(ast::Value& value, bool in_list) {
     if (!negative) in_.take_symbol("+");
     if (Expected* expected = in_.expected_here()) expected->value = true;
     const Token literal = in_.token();
+    if (refuse_malformed_number(in_, in_list)) return false;
     const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
                             literal.kind == TokenKind::time;
     if (!is_literal) {
@@ -281,7 +247,7 @@ bool ValueParser::parse_literal(ast::Value& value, bool in_list) {
     if (negative) value.number = -value.number;
     if (literal.kind == TokenKind::number) parse_unit(value);
     value.span = in_.span_since(first);
-    return in_list || !refuse_decimal_comma(in_, first);
+    return !refuse_rest_of_value(in_, first, literal, in_list);
 }
 
 void ValueParser::parse_unit(ast::Value& value) {
