@@ -141,6 +141,7 @@ void AxisLoop::forget_motor() {
     for (MotorValue& value : image_.motor) value.is_old = true;
     image_.moves = false;
     surveyed_ = kLongAgo;
+    reader_.hurry();
     if (model_.survey_shelf().last().taken != base::Instant{})
         static_cast<void>(model_.survey_shelf().put(std::make_shared<const Survey>()));
 }

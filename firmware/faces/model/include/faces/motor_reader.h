@@ -43,6 +43,8 @@ class MotorReader {
     bool is_idle() const { return !wanted_; }
     /// The motor has a new driver.
     void forget();
+    /// All is read anew, as at first.
+    void hurry() { hurried_ = kHurried; }
     /// When look_around() has work to do, by the faces' clock.
     base::Instant due() const {
         if (period_.count() == 0) return base::kNever;
