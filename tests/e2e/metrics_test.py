@@ -143,6 +143,30 @@ class Served(service_case.ServiceCase):
         self.assertNotIn(("nanoplc_position", (axis, ("unit", "rev"))), values)  # what it was is not what it is
         self.assertEqual(self.end(service), 0)
 
+    def test_of_a_motor_that_is_gone_or_never_was_nothing_is_known(self):
+        self.plug_in()
+        config = self.write(self.axis(table=self.table), self.axis("y", "absent", table=self.table),
+                            service='[metrics]\nlisten = "127.0.0.1:0"\n')
+        service = self.start(config, wait_for="metrics: served at")
+        url = re.search(r"served at (\S+)", service.said()).group(1)
+        of_motor = ["position", "velocity_per_second", "motor_error_word", "motor_mode", "motor_torque_ratio", "motor_load_ratio",
+                    "follow_error", "target"]
+
+        def known(values, axis):
+            return [name for name in of_motor if any(one == f"nanoplc_{name}" and ("axis", axis) in labels for one, labels in values)]
+
+        self.until(lambda: "motor_mode" in known(read(fetch(url)), "x"))
+        self.pull_out()
+        link = ("nanoplc_link_up", (("axis", "x"),))
+        self.until(lambda: read(fetch(url))[link] == 0)
+        values = read(fetch(url))
+        self.assertEqual(known(values, "x"), [])
+        self.assertEqual(known(values, "y"), [])
+        for axis in ("x", "y"):
+            self.assertEqual(values["nanoplc_why", (("axis", axis), ("cause", "gateway_link_down"))], 10)
+        self.assertNotIn(("nanoplc_motor_contact_age_seconds", (("axis", "y"),)), values)
+        self.assertEqual(self.end(service), 0)
+
     def test_a_port_that_is_taken_stops_no_axis(self):
         self.plug_in()
         with socket.create_server(("127.0.0.1", 0)) as one, socket.create_server(("127.0.0.1", 0)) as other:
