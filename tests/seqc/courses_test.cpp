@@ -219,7 +219,7 @@ TEST_F(Courses, JUnitHasATestForEachPropertyAndCheck) {
     EXPECT_NE(xml.find("<testsuites tests=\"17\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
     EXPECT_NE(
         xml.find("name=\"Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON\" file=\"p.seq\">\n"
-                 "      <failure message=\"at the end of this course it is otherwise\" type=\"broken\">"),
+                 "      <failure message=\"at the end of this course it does not hold\" type=\"broken\">"),
         std::string::npos)
         << xml;
 }

@@ -105,7 +105,7 @@ TEST_F(Include, WhatIsNoTextGetsOneMessage) {
     ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     const std::pair<const char*, const char*> cases[] = {
         {"binary.seqi", "it is no text, for it holds zeros"},
-        {"control.seqi", "it is no text, for it holds control characters"},
+        {"control.seqi", "it is not a text: it contains control characters"},
         {"huge.seqi", "it has more than"},
         {"turn_1", "Too many levels of symbolic links"},
         {"pipe", "it is a pipe"},

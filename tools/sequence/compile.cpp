@@ -94,8 +94,8 @@ bool stands_without_the_rest(const Diagnostic& d) {
 void check_motor_is_named(const ast::Program& program, const Plan& plan, Report& report) {
     if (program.motor || program.motor_missing || plan.steps.empty()) return;
     report.add("W026", program.name.span,
-               "no MOTOR is named, and a gateway begins only when a motor answers it",
-               "write MOTOR MAC140; or which one is on its line");
+               "the program names no MOTOR, but a gateway starts only when a motor answers",
+               "write MOTOR MAC140; or the name of your motor");
 }
 
 /// Whether ALLOW in the step or in POWER_UP that contains the finding switches it off.

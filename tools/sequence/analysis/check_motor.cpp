@@ -299,7 +299,7 @@ std::vector<Finding> find_never_written(const Subject& subject) {
         findings.push_back(
             {"V014", step,
              fmt::format("step {} selects register {}, and nothing ever writes it: it holds "
-                         "what somebody stored in the motor",
+                         "the value stored in the motor",
                          step_name(subject.names, step), selected_name(*selection.order, reg, subject.names)),
              std::move(*course)});
     }

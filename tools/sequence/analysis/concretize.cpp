@@ -236,7 +236,7 @@ std::string words_of(const Times::Bound& bound, std::span<const CourseScan> scan
             return fmt::format("the timer preset in {} still runs in {}", scan(bound.cause.first),
                                scan(bound.cause.last + 1));
         case Cause::Kind::move:
-            return fmt::format("the move ordered in {} has not ended in {}, {} ms later at the most",
+            return fmt::format("the move ordered in {} has not ended in {}, at most {} ms later",
                                scan(bound.cause.first), scan(bound.cause.last), ms);
         case Cause::Kind::keeps:
             return fmt::format("IN{} keeps its level for {} ms, and is another in {} and in {}",
@@ -346,9 +346,9 @@ Attempt concretize(const Realization& how, std::span<const CourseScan> scans,
         if (times.solve()) {
             Course course = lay_out(scans, images, times, driver);
             if (play(how.table, scans, course)) return {.course = std::move(course), .conflict = {}};
-            return {
-                .course = {},
-                .conflict = {.last = scans.size() - 1, .exact = true, .words = "the engine goes otherwise"}};
+            return {.course = {},
+                    .conflict = {
+                        .last = scans.size() - 1, .exact = true, .words = "the engine takes another course"}};
         }
         const std::vector<Times::Bound> round = times.round();
         conflict = conflict_of(round, scans);

@@ -21,7 +21,7 @@ constexpr const char* kNoTimes =
     "(--assume any leaves such times out)";
 
 constexpr const char* kNotSurely =
-    "a course leads there from each state if timer and inputs are left free; whether one does with their "
+    "a course leads there from each state if timer and inputs are left free; whether one exists with their "
     "times "
     "was not found";
 constexpr const char* kLeavesTimesOut = " (--assume any leaves such times out)";

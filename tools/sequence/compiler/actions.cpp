@@ -58,7 +58,8 @@ std::optional<std::uint16_t> report_no_time(Span span, Report& report, TimeFor u
                        "leave FOR and its time out, or write how long it lasts, as in FOR 200 ms");
             break;
         case TimeFor::blinking:
-            report.add("E062", span, "a lamp cannot blink with 0: this is how long it is on, and then off",
+            report.add("E062", span,
+                       "BLINKING needs a time above 0: the output is on for it, and then off for it",
                        "write a time, as in BLINKING T#500ms; or leave BLINKING out: then it is on");
             return std::nullopt;
     }

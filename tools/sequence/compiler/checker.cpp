@@ -273,7 +273,7 @@ class Checker {
             "E080", step.span, fmt::format("'{}' does not say what happens on ERROR", step.text),
             has_on ? "write OWN ERROR; in the step, or ON ERROR NEXT := Fault; without IN, EXCEPT or more"
                    : "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
-        if (has_on) d.notes.push_back({on->span, "this is for steps with OWN ERROR alone"});
+        if (has_on) d.notes.push_back({on->span, "this applies only to steps with OWN ERROR"});
     }
 
     /// The cases of a branch's condition, with FOR and WITHIN applied.
@@ -324,7 +324,7 @@ class Checker {
                 if ((plan.outputs >> *bit) & 1) {
                     report_
                         .add("W008", name.span, fmt::format("'{}' is on in this step anyway", name.text),
-                             "take it out of one of the two OUT")
+                             "remove it from one of the two OUT")
                         .notes.push_back({places.at(*bit), "switched on here"});
                 }
             }
@@ -383,7 +383,7 @@ class Checker {
             const Span place = on.written->condition.span;
             if (on.may_act || on.when.none() || report_.has("W001", place) || report_.full()) continue;
             if (!on.covers_one) {
-                report_.add("W001", place, "this condition does nothing: it is for no step",
+                report_.add("W001", place, "this condition has no effect: it applies to no step",
                             "name in IN the steps that it is to end; EXCEPT takes steps out");
                 continue;
             }
@@ -459,7 +459,7 @@ class Checker {
         const Untaken& untaken = untaken_[&branch];
         if (untaken.contradicts_itself) {
             report_.add("W001", place_of(branch), "this branch is never taken",
-                        "its condition contradicts itself: mend it, or take the branch out");
+                        "its condition contradicts itself: correct it, or delete the branch");
             return;
         }
         const bool is_dropped = report_.full();
@@ -491,7 +491,8 @@ class Checker {
                 action.next ? "the branch stays in its step, so this would happen again in every scan"
                             : "without NEXT this would happen again in every scan",
                 branch.condition || action.next
-                    ? "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want"
+                    ? "go on to another step with NEXT, or write EVERY_SCAN in front if the repetition is "
+                      "meant"
                     : "write ENTRY in front: it then happens once, when the step is entered; or EVERY_SCAN "
                       "if "
                       "that is what you want");

@@ -66,7 +66,7 @@ std::string ChosenMotor::name() const {
 void ChosenMotor::require(Span span) {
     if (is_known_) return;
     is_known_ = true;
-    report_.add("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
+    report_.add("E031", span, "a register needs the name of the motor", "name it at the top: MOTOR MAC140;");
 }
 
 bool ChosenMotor::is_for_drive(const Send& send) {

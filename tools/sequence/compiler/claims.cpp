@@ -410,7 +410,7 @@ class ClaimResolver {
                  milliseconds != std::floor(milliseconds))
             wrong = "a property's time is whole milliseconds up to an hour";
         else if (milliseconds < least)
-            wrong = "a property's time is 1 ms at the least";
+            wrong = "a property's time is at least 1 ms";
         if (wrong == nullptr) return static_cast<std::uint32_t>(milliseconds);
         report_.add("E062", time->span, wrong, "write 20 ms, 1.5 s or T#1s500ms");
         return 0;

@@ -124,7 +124,7 @@ class Copies {
         const std::uint8_t differs = key.latched ^ first.latched;
         const bool no_room = !from.no_helper;
         const char* help = no_room ? "all numbers are used: join steps, or let both ways do the same"
-                                   : "take NO_HELPER out, or let both ways do the same";
+                                   : "delete NO_HELPER, or let both ways do the same";
         if (differs == 0) {
             const Memory& memory = from.memory;
             const Span place =
@@ -136,7 +136,7 @@ class Copies {
                     : fmt::format("'{}' needs a copy of itself for this", from.name);
             Diagnostic& d =
                 report_.add("E074", place, why,
-                            !no_room                 ? "take NO_HELPER out"
+                            !no_room                 ? "delete NO_HELPER"
                             : memory.counts_halves() ? "not so many numbers are free: blink slower, "
                                                        "or let the limit be shorter"
                                                      : "all numbers are used: join steps");

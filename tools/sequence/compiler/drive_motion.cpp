@@ -178,17 +178,18 @@ class DriveWalk {
         const bool starts_itself = state.motion == send.span && !moved_before_;
         report_
             .add("W015", send.span,
-                 fmt::format("this waits until the motor stands: in motion a {} takes no {}",
+                 fmt::format("this waits until the drive is at rest: in motion a {} accepts no {}",
                              drive_.program_name,
                              std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
                  starts_itself ? "VELOCITY sends V first, which starts the motor: INIT(A..); VELOCITY(V..); "
                                  "selects A while "
-                                 "it stands, and what was selected stays so"
-                               : "wait for INPOS before, or STOP first; leave it if waiting is what you want")
-            .notes.push_back({state.motion, starts_itself ? "its first command starts the motor"
-                                            : state.motion == send.span
-                                                ? "the same order, given a round before, may not be done"
-                                                : "it may still move since this"});
+                                 "it is at rest, and what was selected stays selected"
+                               : "wait for INPOS before, or STOP first; leave it if the wait is intended")
+            .notes.push_back(
+                {state.motion, starts_itself ? "its first command starts the motor"
+                               : state.motion == send.span
+                                   ? "the same order, given in the cycle before, may not be finished"
+                                   : "it may still be moving because of this"});
     }
 
     void judge_ramps(const Send& send, const DriveState& state) {

@@ -141,7 +141,7 @@ class MotionWalk {
                         state.drive.length != 0 ? "ENTRY MODE_REG := 0;" : "ENTRY STOP;"));
         d.notes.push_back(
             {guard, is_fault ? "this leads there, and unlike an ERROR stops nothing" : "this leads there"});
-        d.notes.push_back({state.any(), "what began here may go on"});
+        d.notes.push_back({state.any(), "the motion that began here may continue"});
     }
 
     const ast::Program& program_;

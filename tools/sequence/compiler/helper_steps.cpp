@@ -74,7 +74,7 @@ class HelperSteps {
         }
         if (step.no_helper) {
             return refuse(step, rule, trouble,
-                          "take NO_HELPER out, test TIMER.Q or COUNTER.Q without NOT and in the branch that "
+                          "delete NO_HELPER, test TIMER.Q or COUNTER.Q without NOT and in the branch that "
                           "comes first, or go to a step of its own");
         }
         const std::uint8_t number = helper_for(step, rule);

@@ -8,7 +8,7 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::string_view kWhatToWrite =
-    "write HOME_MODE := BY_COMMAND = HOME1_MODE; (against a stop; HOME2_MODE and HOME3_MODE take a sensor)";
+    "write HOME_MODE := BY_COMMAND = HOME1_MODE; (against a stop; HOME2_MODE and HOME3_MODE use a sensor)";
 
 bool is_home(const Send& send) {
     return send.reg == nullptr && kind_of(send) == OrderKind::home;
@@ -33,12 +33,11 @@ void check_home_mode(const Plan& plan, registers::Model model, Report& report) {
     });
     if (home == nullptr || written == nullptr || may_search) return;
     const bool is_low = written->value != 0 && registers::value_in(*field, written->value) == 0;
-    Diagnostic& d =
-        report.add("W032", home->span, "HOME does nothing: HOME_MODE holds no kind of homing for it",
-                   std::string(kWhatToWrite));
+    Diagnostic& d = report.add("W032", home->span, "HOME has no effect: HOME_MODE selects no homing for it",
+                               std::string(kWhatToWrite));
     d.notes.push_back(
-        {written->span, is_low ? "the low byte, written here, is for power-up; HOME takes the high byte"
-                               : "HOME_MODE is written here, and HOME takes its high byte"});
+        {written->span, is_low ? "the low byte, written here, is for power-up; HOME uses the high byte"
+                               : "HOME_MODE is written here; HOME uses its high byte"});
 }
 
 }  // namespace nplc::seqc

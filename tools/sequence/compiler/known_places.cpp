@@ -242,7 +242,7 @@ class PlaceWalk {
             is_other ? fmt::format("the axis stands there already: {} has the value of {}",
                                    shown_register(symbols_, to.reg), shown_register(symbols_, from.reg))
                      : fmt::format("the axis stands at {} already", shown_register(symbols_, to.reg)),
-            "name another place, or take the move out; INPOS comes at once");
+            "name another position, or delete the move; INPOS comes at once");
         d.notes.push_back({from.span, "it was sent there here"});
     }
 
@@ -292,7 +292,7 @@ class PlaceWalk {
         warn_limit(rule, to,
                    fmt::format("this time limit ends before the move does: {:.2f} s {}{}, and {:.2f} s here",
                                least->seconds, way,
-                               is_one && least->is_one ? "" : " at the worst of the set-points", limit),
+                               is_one && least->is_one ? "" : " with the least favourable set-points", limit),
                    fmt::format("write more than {} ms, with time for the ramps, or select a higher velocity",
                                std::lround(std::ceil(least->seconds * 1000))));
     }

@@ -16,7 +16,7 @@ const char* limit_of(const registers::Register& reg, registers::Model model) {
     if (reg.number == registers::MIN_P_IST || reg.number == registers::MAX_P_IST)
         return "a motor that leaves its position limits stops";
     if (model != registers::Model::mac800) return nullptr;
-    if (reg.number == kUndervoltageHandling) return "a motor that finds its supply too low reacts";
+    if (reg.number == kUndervoltageHandling) return "the supply voltage below which the motor reacts";
     if (reg.number == kHighestTemperature) return "a motor that gets too hot stops";
     return nullptr;
 }

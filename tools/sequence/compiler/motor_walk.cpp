@@ -202,12 +202,12 @@ class MotorWalk {
     void judge_relative(const Send& send, const Rule& rule, const MotorState& state) {
         if (state.stopped) return warn_stopped(send, rule, state);
         if (!state.left_in_init || symbols_.drive != nullptr) return;
-        Diagnostic* said =
-            complain("W004", send, rule,
-                     fmt::format("the motor may not move: it may be in INIT here, and {} leaves it there",
-                                 statement_text(source_, send.span)),
-                     "let a POSITION(P..) come before on every way: the motor stays in "
-                     "position mode then");
+        Diagnostic* said = complain(
+            "W004", send, rule,
+            fmt::format("the motor may not move: it may be in INIT here, and {} does not change that",
+                        statement_text(source_, send.span)),
+            "let a POSITION(P..) come before on every way: the motor stays in "
+            "position mode then");
         note_init(said, state);
     }
 

@@ -116,14 +116,15 @@ class AwayWalk {
         if (state.relative && state.ran.length != 0) {
             report_
                 .add("W046", send.span,
-                     "this relative move may begin where the axis was before it ran: P_SOLL is still there",
-                     "make 0 of where the axis stands, in INIT: INIT(V..); CLEAR_P_IST; CLEAR_P_FNC; "
+                     "this relative move may start from an old target: P_SOLL still has the position before "
+                     "the axis ran",
+                     "make the present position the origin, in INIT: INIT(V..); CLEAR_P_IST; CLEAR_P_FNC; "
                      "CLEAR_P_SOLL;")
-                .notes.push_back({state.ran, "it ran from here on, and P_SOLL stayed"});
+                .notes.push_back({state.ran, "the axis ran from here on, and P_SOLL did not change"});
         } else if (!state.relative && state.cleared.length != 0) {
             report_
                 .add("W046", send.span,
-                     "this place may be another one than P_IST tells: P_FNC still counts from the old 0",
+                     "this position may differ from what P_IST shows: P_FNC still counts from the old origin",
                      "write both, in INIT: INIT(V..); CLEAR_P_IST; CLEAR_P_FNC;")
                 .notes.push_back({state.cleared, "P_IST becomes 0 here, and P_FNC does not"});
         }

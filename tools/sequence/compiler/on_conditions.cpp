@@ -68,7 +68,7 @@ void warn_if_nowhere(const OnCondition& on, Scope& scope) {
     }
     if (left.any() || on.written->only.empty() || on.steps.none()) return;
     scope.report().add("W001", on.written->condition.span,
-                       "this condition does nothing: the step is where it leads",
+                       "this condition has no effect: the step is the one it leads to",
                        "name in IN the steps that it is to end");
 }
 
@@ -77,7 +77,7 @@ void warn_if_nowhere(const OnCondition& on, Scope& scope) {
 void warn_of_idle_except(const ast::Name& name, Scope& scope) {
     scope.report().add("W001", name.span,
                        fmt::format("EXCEPT does nothing here: IN does not name '{}'", name.text),
-                       "take it out, or name in IN the steps that are meant");
+                       "delete it, or name the intended steps behind IN");
 }
 
 namespace {
@@ -101,7 +101,7 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
         if (!is_sound) on.when.reset();  // its value is unknown: it takes no cases from others
         if (on.when.none() && is_sound) {
             scope.report().add("W001", written.condition.span, "this condition never holds",
-                               "it contradicts itself: mend it, or take the line out");
+                               "it contradicts itself: correct it, or delete the line");
         }
         const std::size_t before_steps = scope.report().error_count() + scope.faulty_names_met();
         if (written.only.empty()) {

@@ -83,10 +83,11 @@ class Oversights {
     }
 
     void warn_of_speed(Span span, double rpm, double top) {
-        report_.add("W018", span,
-                    fmt::format("{:.0f} rpm is more than a {} reaches: {:.0f} rpm", rpm,
-                                registers::name_of(symbols_.motor), top),
-                    "write less, or look at SCALE: it says how far the machine moves in a revolution");
+        report_.add(
+            "W018", span,
+            fmt::format("{:.0f} rpm is more than a {} reaches: {:.0f} rpm", rpm,
+                        registers::name_of(symbols_.motor), top),
+            "write a smaller value, or check SCALE: it says how far the machine moves in a revolution");
     }
 
     static bool is_speed(const registers::Register* reg) {
@@ -121,9 +122,9 @@ class Oversights {
             if (!selection || !set.emplace(selection->group, selection->index).second) return;
             const std::string reg = register_name(*selection);
             report_.add("W023", send.span,
-                        fmt::format("{} is selected here, and nothing gives it a value", reg),
+                        fmt::format("{} is selected here, but nothing gives it a value", reg),
                         fmt::format("write Name AT {0} := value; in VAR_MOTOR, or Name AT {0}; if the motor "
-                                    "has it in its memory or somebody else sets it",
+                                    "has a value in its memory or it is set elsewhere",
                                     reg));
         });
     }
@@ -257,7 +258,7 @@ class Oversights {
         if (fault_ == nullptr || under_error || stuck_.test(fault_->number)) return;
         if (reset != nullptr) {
             report_.add("W021", reset->condition.length != 0 ? reset->condition : reset->action.span,
-                        "RESET_ERROR is never sent while there is an ERROR: this means NOT ERROR too",
+                        "RESET_ERROR is never sent while there is an ERROR: this implies NOT ERROR",
                         "write ANY ERROR AND in front of the condition");
             return;
         }

@@ -48,7 +48,7 @@ void check_raw_terms(const Plan& plan, const registers::DriveModel* drive, Repor
         if (i + 1 == plan.terms.size()) continue;
         report
             .add("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
-                 "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
+                 "let the TERM with STATE 63 be the last, or delete it: the compiler ends the table")
             .notes.push_back({raw.span, "the table ends here"});
         return;
     }

@@ -105,7 +105,7 @@ void warn_unreachable(const Plan& plan, const std::vector<MissingReturn>& missin
     for (const StepPlan& step : plan.steps) {
         if (reached.test(step.number)) continue;
         report.add("W005", step.span, fmt::format("no step leads to '{}'", step.name),
-                   "name it in a NEXT, or take it out");
+                   "name it in a NEXT, or delete it");
     }
 }
 

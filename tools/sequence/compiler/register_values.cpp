@@ -290,7 +290,7 @@ std::optional<std::uint32_t> RegisterValues::written_bits(const ast::Value& writ
     if (reg.dangerous) {
         report_.add("W003", value.span,
                     fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
-                    "leave it alone unless its maker told you the value");
+                    "do not write it unless the manufacturer gave you the value");
     }
     const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
@@ -426,7 +426,7 @@ bool RegisterValues::note_rounding(const ast::Value& value, const Register& reg,
             fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
             meant_as_thousands(text(value.span))
                 ? "a point is a decimal point here: write thousands without one"
-                : step + (motor_.takes_zero(reg) ? "; write at least that, or 0 if you mean 0"
+                : step + (motor_.takes_zero(reg) ? "; write at least that, or 0 if 0 is meant"
                                                  : "; write at least that"));
         note_value(d, value, shown_name);
         return false;
@@ -437,7 +437,7 @@ bool RegisterValues::note_rounding(const ast::Value& value, const Register& reg,
                                     fmt::format("the register is too coarse for this value: {}", what),
                                     meant_as_thousands(text(value.span))
                                         ? "a point is a decimal point here: write thousands without one"
-                                        : step + "; write a multiple of it, or live with the difference");
+                                        : step + "; write a multiple of it, or accept the difference");
         note_value(d, value, shown_name);
     }
     return true;
@@ -461,7 +461,7 @@ void RegisterValues::note_drive_value(const ast::Value& value, const Register& r
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
         report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
-                    "write what it will be, or live with the difference");
+                    "write the rounded value, or accept the difference");
     note_value(d, value, shown_name);
 }
 

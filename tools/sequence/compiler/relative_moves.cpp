@@ -78,17 +78,18 @@ class RelativeWalk {
         const double counts = std::fabs(rounding->lost) * kMoves;
         Diagnostic& d = report_.add(
             "W030", rounding->span,
-            fmt::format("this distance is rounded, and relative moves add that up: {:.0f} moves end {:.4g} "
-                        "counts{} too {}",
-                        kMoves, counts,
-                        rounding->unit.empty()
-                            ? ""
-                            : fmt::format(" ({:.4g} {})", counts / rounding->per_unit, rounding->unit),
-                        (rounding->lost < 0) != rounding->is_negative ? "far" : "short"),
+            fmt::format(
+                "this distance is rounded, and the errors of relative moves add up: {:.0f} moves end {:.4g} "
+                "counts{} too {}",
+                kMoves, counts,
+                rounding->unit.empty()
+                    ? ""
+                    : fmt::format(" ({:.4g} {})", counts / rounding->per_unit, rounding->unit),
+                (rounding->lost < 0) != rounding->is_negative ? "far" : "short"),
             rounding->makes_good
-                ? "what the moves of a round come to is no whole number of counts: choose a SCALE with which "
-                  "it is, or find the place anew with a sensor"
-                : "let one move of each round make it good, as in Last AT P2 := 360 deg - 6 * Pitch;");
+                ? "the moves of a cycle do not add up to a whole number of counts: choose a SCALE with which "
+                  "they do, or find the position again with a sensor"
+                : "let one move of each cycle compensate for it, as in Last AT P2 := 360 deg - 6 * Pitch;");
         d.notes.push_back({selection.span, "the move is here"});
         if (since.length != 0) d.notes.push_back({since, "positions become relative here"});
     }

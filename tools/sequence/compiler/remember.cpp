@@ -16,7 +16,8 @@ constexpr const char* kOneTimer = "put one of the two into a step of its own";
 constexpr const char* kBlinkTogether =
     "let all of them blink alike: OUT Lamp, Horn BLINKING T#500ms; or put one into a step of its own";
 constexpr const char* kHeld =
-    "FOR starts the timer anew whenever its condition comes, so nothing else can run on it: put one of the "
+    "FOR starts the timer again whenever its condition becomes true, so nothing else can use it: put one of "
+    "the "
     "two "
     "into a step of its own; WITHIN and BLINKING go together";
 
@@ -69,7 +70,7 @@ class Remembering {
         if (memory_.edges.size() <= kMost) return;
         scope_.report().add(
             "E074", memory_.edges[kMost].span,
-            fmt::format("a step can see {} edges at the most: each makes twice as many steps", kMost),
+            fmt::format("a step can have at most {} edges: each doubles the number of steps", kMost),
             "wait for some of them in a step of their own");
         memory_.edges.resize(kMost);
     }

@@ -254,14 +254,13 @@ class Restart {
         if (motion.first == nullptr || report_.has("W037", place) || is_acknowledged(rule, by_guard)) return;
         Diagnostic& d = report_.add(
             "W037", place,
-            by_guard
-                ? "the motor may start again by itself once the guard of this step is over: no other input "
-                  "has to change on the way"
-                : "the motor may start again by itself after a fault: no input has to change on the way",
+            by_guard ? "the motor may start again by itself when the guard of this step ends: no other input "
+                       "has to change on the way"
+                     : "the motor may start again by itself after a fault: no input has to change on the way",
             fmt::format("wait for a button to be pressed, as in {}R_TRIG(Ack); or write ALLOW W037 "
                         "BECAUSE 'reason'; in the step",
                         by_guard ? "IF Well AND " : "ANY ERROR AND "));
-        d.notes.push_back({motion.first->span, "it comes to this with all inputs left as they are"});
+        d.notes.push_back({motion.first->span, "this is reached with all inputs unchanged"});
         if (by_guard) d.notes.push_back({guard, "the guard is this one"});
     }
 

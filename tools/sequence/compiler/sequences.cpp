@@ -225,7 +225,7 @@ class Expansion {
         if (is_second) return;
         if (group.steps.empty() && !program_.steps_missing && !report_.has_errors()) {
             report_.add("W005", sequence.name.span, fmt::format("nothing calls '{}'", sequence.name.text),
-                        fmt::format("write CALL {}(..); NEXT := Step; or take it out", sequence.name.text));
+                        fmt::format("write CALL {}(..); NEXT := Step; or delete it", sequence.name.text));
         }
         program_.groups.insert(program_.groups.begin(), std::move(group));
     }

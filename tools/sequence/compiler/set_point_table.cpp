@@ -73,7 +73,7 @@ void SetPointTable::declare(const ast::Program& program) {
         declared.point.name = name;
         names_.set_points().push_back(name);
         if (name.size() > kLongestName) {
-            report_.add("E027", written.name.span, "the name of a set-point has 32 characters at the most",
+            report_.add("E027", written.name.span, "the name of a set-point has at most 32 characters",
                         "the gateway keeps it with the table: choose a shorter one");
             declared.is_sound = false;
         }

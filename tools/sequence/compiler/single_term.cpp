@@ -30,7 +30,7 @@ class TermEncoder {
     std::uint8_t step_number(std::optional<std::uint8_t> inside) {
         if (written_.step.text.empty()) {
             if (!inside) {
-                scope_.report().add("E094", span_, "which step is this TERM for?",
+                scope_.report().add("E094", span_, "this TERM belongs to no step",
                                     "write TERM Name: IF ..., or put it into its step");
             }
             return inside.value_or(0);

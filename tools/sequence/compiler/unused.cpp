@@ -38,7 +38,7 @@ class Unused {
 
     void run() {
         if (has_bytes()) return;
-        for (const ast::Variable& variable : program_.inputs) check_signal(variable, "nothing looks at it");
+        for (const ast::Variable& variable : program_.inputs) check_signal(variable, "no condition uses it");
         for (const ast::Variable& variable : program_.outputs) check_signal(variable, "nothing switches it");
         for (const ast::Group& group : program_.groups) check_group(group);
         for (const ast::Variable& variable : program_.motor_variables)
@@ -109,8 +109,7 @@ class Unused {
         const bool by_address = used_.contains(plain(variable.address.text));
         if (is_used(variable.name) || by_address || is_shared(variable.name)) return;
         report_.add("W034", variable.name.span,
-                    fmt::format("'{}' is declared, and {}", variable.name.text, why),
-                    "use it, or take it out");
+                    fmt::format("'{}' is declared, but {}", variable.name.text, why), "use it, or delete it");
     }
 
     void check_group(const ast::Group& group) {
@@ -120,8 +119,8 @@ class Unused {
         if (is_sequence || used_steps_.contains(upper(group.name.text)) || is_shared(group.name)) return;
         report_.add(
             "W034", group.name.span,
-            fmt::format("the group '{}' is declared, and nothing names it", group.name.text),
-            fmt::format("use it, as in ON condition IN {0} NEXT := Step; or take it out", group.name.text));
+            fmt::format("the group '{}' is declared, but nothing uses it", group.name.text),
+            fmt::format("use it, as in ON condition IN {0} NEXT := Step; or delete it", group.name.text));
     }
 
     std::optional<std::uint8_t> register_named(const ast::Name& name) const {
@@ -150,18 +149,19 @@ class Unused {
                 fmt::format("'{}' gets a value and is never selected: the motor does not use it", name.text),
                 help_to_select(*place, name.text));
         } else {
-            report_.add("W034", name.span, fmt::format("'{}' is declared, and nothing uses it", name.text),
-                        "use it, or take it out");
+            report_.add("W034", name.span, fmt::format("'{}' is declared, but nothing uses it", name.text),
+                        "use it, or delete it");
         }
     }
 
     static std::string help_to_select(const Selection& place, std::string_view name) {
         constexpr std::uint8_t kFirstDistance = 7;
         if (place.group == Group::p && place.index >= kFirstDistance)
-            return fmt::format("POSITION({}); moves there, MOVE_P{}_BY_P_SOLL; by so much; or take it out",
-                               name, place.index);
-        if (place.group == Group::p) return fmt::format("POSITION({}); moves there; or take it out", name);
-        return fmt::format("add it to the INIT(..) of POWER_UP, or take it out");
+            return fmt::format(
+                "POSITION({}); moves there, MOVE_P{}_BY_P_SOLL; by that distance; or delete it", name,
+                place.index);
+        if (place.group == Group::p) return fmt::format("POSITION({}); moves there; or delete it", name);
+        return fmt::format("add it to the INIT(..) of POWER_UP, or delete it");
     }
 
     const ast::Program& program_;

@@ -109,7 +109,7 @@ class SpeedWalk {
             const DeclaredSetPoint& declared = points_[zero.set_point - 1U];
             report_
                 .add("W004", move.span,
-                     fmt::format("'{}' may be 0, and the motor then takes this move and stands",
+                     fmt::format("'{}' may be 0, and the motor then accepts this move without moving",
                                  declared.point.name),
                      "let its RANGE begin above 0")
                 .notes.push_back({declared.written->name.span, "the set-point is here"});
@@ -119,7 +119,7 @@ class SpeedWalk {
             source.index == 0 ? "V_SOLL" : shown_register(symbols_, {Group::v, source.index});
         report_
             .add("W004", move.span,
-                 fmt::format("{} is 0, the velocity of this move: the motor takes it and stands", name),
+                 fmt::format("{} is 0, the velocity of this move: the motor accepts it without moving", name),
                  "give it a velocity above 0, or select another one before, as INIT(Fast); does")
             .notes.push_back({zero.span, "it gets its value here"});
     }

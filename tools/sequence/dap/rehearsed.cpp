@@ -68,7 +68,7 @@ class Rehearsed final : public Debuggee {
     void stop_on_failure(bool yes) override { until_.failure = yes; }
 
     void start(Order order) override {
-        if (ended_) throw Problem("the rehearsal has ended: start it anew");
+        if (ended_) throw Problem("the rehearsal has ended: start it again");
         until_.step = order == Order::next_step;
         until_.scan = order == Order::next_scan;
     }
@@ -98,7 +98,7 @@ class Rehearsed final : public Debuggee {
     Stopped pause() override { return {StopReason::pause, "pause"}; }
 
     void switch_sequence(bool) override {
-        throw Problem("a rehearsal runs from its launch to its end: go on, pause, or launch it anew");
+        throw Problem("a rehearsal runs from its launch to its end: continue, pause, or launch it again");
     }
 
     std::vector<Variable> registers() override {

@@ -46,7 +46,7 @@ bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first,
     result = {};
     if (is_told) return true;
     in.report().add(
-        "E014", in.span_since(first), "a condition compares nothing: it is true or false by itself",
+        "E014", in.span_since(first), "a condition cannot compare: it is true or false",
         truth ? fmt::format("write {}{}", is_one(right) != differs ? "" : "NOT ", left) : std::string(kSeen));
     return true;
 }
@@ -82,7 +82,7 @@ bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call) {
         return true;
     }
     in.report().add("E014", in.span_since(first),
-                    calls ? fmt::format("a condition calls nothing: there is no function '{}'", first.text)
+                    calls ? fmt::format("a condition has no functions: there is no '{}'", first.text)
                           : fmt::format("'{}' has no parts", first.text),
                     help);
     return true;

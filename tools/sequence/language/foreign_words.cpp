@@ -36,7 +36,7 @@ constexpr std::string_view kJog =
 constexpr std::string_view kPower =
     "the motor is on when a mode is selected: POSITION(..), VELOCITY(..); INIT(..) lets it rest";
 constexpr std::string_view kShow =
-    "a sequence shows nothing by itself: light a lamp with OUT Name; `nanoctl watch` shows step and inputs";
+    "a sequence cannot show text: switch a lamp on with OUT Name; `nanoctl watch` shows step and inputs";
 constexpr std::string_view kOut =
     "OUT Name; in the step switches it on, and what OUT does not name is off; OUT Name WHEN condition; "
     "follows "

@@ -135,7 +135,7 @@ class Lexer {
                         is_hidden
                             ? "an invisible character stands in this word"
                             : fmt::format("'{}' has a letter that a name cannot have", word.substr(0, 60)),
-                        is_hidden ? "delete the word and type it anew" : spelt_plainly(word));
+                        is_hidden ? "delete the word and type it again" : spelt_plainly(word));
         }
         if (peek() == '#' && (same_name(word, "T") || same_name(word, "TIME"))) {
             ++at_;
@@ -341,7 +341,7 @@ class Lexer {
             at_ += blank.size();
             if (!std::exchange(blanks_refused_, true))
                 report_.add("E001", span_from(start), "this is another blank than the one of the space bar",
-                            "type it anew: text from documents and web pages has such blanks");
+                            "type it again: text from documents and web pages has such blanks");
             return true;
         }
         return false;

@@ -162,7 +162,7 @@ void Parser::parse_item(ast::Program& program) {
         return;
     }
     if (refuse_foreign_item(in_, program)) return;
-    in_.error_here(expected, "this belongs into a step, or something above it ends too early");
+    in_.error_here(expected, "this belongs into a step, or a block above it ends too early");
     program.steps_missing = true;
     in_.skip();
     recover_item(in_);

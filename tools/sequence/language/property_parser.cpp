@@ -106,8 +106,7 @@ void PropertyParser::parse_file(ast::Program& program) {
             parse_assumption(program);
         } else {
             if (!in_.mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !in_.report().has_errors())
-                in_.error_here("PROPERTY or ASSUME",
-                               "such a file has PROPERTY Name: claim; and ASSUME alone");
+                in_.error_here("PROPERTY or ASSUME", "such a file has PROPERTY Name: form; and ASSUME only");
             if (!in_.at("PROPERTY") && !in_.at("ASSUME")) in_.skip();
         }
     }
@@ -119,10 +118,10 @@ void PropertyParser::finish_claim(const Token& first, bool is_sound, ast::Progra
     if (in_.at_symbol(";"))
         claim_.span.length = in_.token().span.offset + in_.token().span.length - claim_.span.offset;
     if (const std::string help = help_behind_claim(in_.last(), in_.token(), in_.token(1)); !help.empty()) {
-        in_.report().add(
-            "E010", in_.token().span,
-            fmt::format("a claim cannot go on with '{}' behind '{}'", in_.token().text, in_.last().text),
-            help);
+        in_.report().add("E010", in_.token().span,
+                         fmt::format("a property cannot continue with '{}' behind '{}'", in_.token().text,
+                                     in_.last().text),
+                         help);
         return recover_claim(in_);
     }
     for (std::size_t i = claim_begin_; i < in_.position(); ++i) claim_.words.push_back(in_.tokens()[i].text);

@@ -64,7 +64,7 @@ void SequenceParser::parse(ast::Program& program) {
     sequence.steps = std::move(inner.steps);
     program.steps_missing = program.steps_missing || inner.steps_missing;
     if (sequence.steps.empty() && !inner.steps_missing) {
-        in_.report().add("E067", sequence.name.span, "a SEQUENCE has a step at the least",
+        in_.report().add("E067", sequence.name.span, "a SEQUENCE has at least one step",
                          "write STEP Name: ... END_STEP in it");
     }
     const bool closed = notes_.end_block("END_SEQUENCE", first.span);

@@ -158,7 +158,7 @@ class SourceLoader {
         SourceText text = reader_.read(name);
         if (text.error.empty() && !is_text(text.text))
             text.error =
-                fmt::format("cannot include '{}': it is no text, for it holds control characters", name);
+                fmt::format("cannot include '{}': it is not a text: it contains control characters", name);
         if (!text.error.empty()) {
             fail(inclusion, "E024", span, text.error,
                  name.find('\\') != std::string::npos

@@ -48,7 +48,7 @@ constexpr auto kSentences = std::to_array<Sentence>({
     {"motor", "`motor error`, `motor load 500`, `motor power off`: what happens to the motor"},
     {"gateway", "`gateway stop`, `gateway run`, `gateway restart`"},
     {"log", "`log \"text\"`: a remark in the timeline"},
-    {"seed", "`seed 7`: starts the line's chance anew"},
+    {"seed", "`seed 7`: sets the seed of the line's random faults"},
     {"step", "the active step: `step = Name`, `step in Group`"},
     {"INPOS", "the motor is in position"},
     {"ERROR", "the sequence sees an error"},

@@ -19,8 +19,8 @@ std::string render_all(const Compilation& compilation, const Sources& sources, C
     std::string text;
     for (const Diagnostic& diagnostic : all) text += render(diagnostic, sources, colour);
     if (compilation.more_diagnostics) {
-        text +=
-            fmt::format("{}: there are more; only {} are shown, mend these first\n", file_name, all.size());
+        text += fmt::format("{}: there are more; only {} are shown, correct these first\n", file_name,
+                            all.size());
     }
     const auto errors = std::count_if(all.begin(), all.end(),
                                       [](const Diagnostic& d) { return d.severity == Severity::error; });

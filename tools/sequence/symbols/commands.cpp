@@ -12,7 +12,7 @@ constexpr std::array kModes = {table::Mode::init, table::Mode::velocity, table::
 }  // namespace
 
 const std::string_view kLinkRefusal =
-    "leave it out: it would change how the gateway and the motor talk, which is the gateway's own business";
+    "leave it out: it would change how the gateway and the motor talk, which only the gateway may change";
 
 const NamedCommand* find_command(std::string_view name) {
     for (const NamedCommand& command : table::named_commands()) {
