@@ -69,7 +69,7 @@ constexpr std::uint8_t kStatusOfDiscrete[map::kDiscretes - map::kIsSafe] = {
 
 constexpr std::uint8_t kCoilCommands[] = {1, 2, 3, 6, 5, 4};  ///< run, stop, safe, hold, step, scan
 
-constexpr std::size_t kHead = 5;  ///< of a write: function, address, count or value
+constexpr std::size_t kWriteHead = 5;  ///< of a write: function, address, count or value
 
 constexpr bool is_stop(std::uint32_t command) {
     return command == static_cast<std::uint32_t>(Command::stop) ||
@@ -102,7 +102,7 @@ bool StopFinder::take(std::uint8_t byte, std::uint8_t unit) {
     constexpr std::size_t kAround = 3;
     std::copy(last_.begin() + 1, last_.end(), last_.begin());
     last_.back() = byte;
-    for (std::size_t size = kHead + kAround; size <= last_.size(); ++size) {
+    for (std::size_t size = kWriteHead + kAround; size <= last_.size(); ++size) {
         const auto frame = std::span(last_).last(size);
         if (frame[0] != unit && frame[0] != protocol::modbus::kBroadcast) continue;
         const auto [request, exception] = protocol::modbus::decode(frame.subspan(1, size - kAround));
@@ -171,7 +171,7 @@ ModbusSlave::Need ModbusSlave::refuse_with(Exception exception) {
 
 /// begin() has put the bytes there: the reader keeps them until the next character only.
 ModbusSlave::Need ModbusSlave::echo() {
-    size_ = 1 + kHead;
+    size_ = 1 + kWriteHead;
     sent_ = 0;
     return end_answer();
 }
@@ -184,7 +184,7 @@ ModbusSlave::Need ModbusSlave::begin(base::Instant now) {
         return command(stop);
     }
     unit_ = out_[0] = reader_.unit();
-    std::copy_n(reader_.pdu().data(), kHead, out_.begin() + 1);
+    std::copy_n(reader_.pdu().data(), kWriteHead, out_.begin() + 1);
     const auto decoded = protocol::modbus::decode(reader_.pdu());
     request_ = decoded.request;
     if (decoded.exception != Exception::none) return refuse_with(decoded.exception);

@@ -16,8 +16,8 @@ void note_time(const ast::Constant& constant, Symbols& symbols) {
     const bool is_seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !is_seconds && !same_name(value.unit.text, "ms")) return;
     const double milliseconds = value.number * (is_seconds ? 1000 : 1);
-    constexpr double kLongest = 3'600'000;
-    if (milliseconds >= 0 && milliseconds <= kLongest && milliseconds == std::floor(milliseconds))
+    constexpr double kLongestName = 3'600'000;
+    if (milliseconds >= 0 && milliseconds <= kLongestName && milliseconds == std::floor(milliseconds))
         symbols.times.push_back({std::string(constant.name.text), static_cast<std::uint32_t>(milliseconds)});
 }
 

@@ -11,7 +11,7 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::uint32_t kShown = 60;
+constexpr std::uint32_t kMostShown = 60;
 
 bool is_next_to(const Token& first, const Token& second) {
     return second.span.offset == first.span.offset + first.span.length;
@@ -22,7 +22,7 @@ bool has_digit(std::string_view text) {
 }
 
 std::string_view beginning(const TokenStream& in, Span span) {
-    return in.text_of({span.offset, std::min(span.length, kShown)});
+    return in.text_of({span.offset, std::min(span.length, kMostShown)});
 }
 
 }  // namespace

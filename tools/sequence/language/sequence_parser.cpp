@@ -7,7 +7,7 @@
 namespace nplc::seqc {
 namespace {
 
-using Kind = ast::Parameter::Kind;
+using ParameterKind = ast::Parameter::Kind;
 
 /// Skips a list that cannot be parsed.
 void skip_parameters(TokenStream& in) {
@@ -76,15 +76,15 @@ bool SequenceParser::parse_parameters(ast::Sequence& sequence) {
     do {
         ast::Parameter parameter;
         if (in_.take("VAR_INPUT")) {
-            parameter.kind = Kind::input;
+            parameter.kind = ParameterKind::input;
         } else if (in_.take("VAR_OUTPUT")) {
-            parameter.kind = Kind::output;
+            parameter.kind = ParameterKind::output;
         } else if (in_.take("VAR_MOTOR")) {
-            parameter.kind = Kind::motor_variable;
+            parameter.kind = ParameterKind::motor_variable;
         } else if (in_.take("CONST")) {
-            parameter.kind = Kind::constant;
+            parameter.kind = ParameterKind::constant;
         } else if (in_.take("STEP")) {
-            parameter.kind = Kind::step;
+            parameter.kind = ParameterKind::step;
         } else {
             in_.error_here(
                 "VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, CONST or STEP and a parameter's name",
