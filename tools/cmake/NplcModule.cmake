@@ -111,7 +111,7 @@ endif()
 
 # Files of the core, and with NPLC_DEMO of any module, with names that collide with their neighbours'; and families.cpp, which
 # tests/families has in another form.
-set(NPLC_ALONE "^([a-z]+/)?(claims|constants|families|fields_small|jvl_family|mac800|machine|midi_can_link|midi_family|motor_memory|parse_sequences|plant|scale|settings_manager|standstill|titles_small|write)\\.cpp$")
+set(NPLC_ALONE "^([a-z]+/)?(claims|constants|families|fields_small|jvl_family|mac800|machine|midi_can_link|midi_family|motor_memory|plant|scale|settings_manager|standstill|titles_small|write)\\.cpp$")
 
 function(_nplc_module name)
   cmake_parse_arguments(ARG "CORE" "" "SOURCES;DEPENDS;OPTIONS" ${ARGN})
