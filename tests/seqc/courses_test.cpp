@@ -217,10 +217,10 @@ TEST_F(Courses, JUnitHasATestForEachPropertyAndCheck) {
     const std::string xml = read("p.xml");
     // 15 checks and 2 properties, one of them broken.
     EXPECT_NE(xml.find("<testsuites tests=\"17\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
-    EXPECT_NE(
-        xml.find("name=\"Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON\" file=\"p.seq\">\n"
-                 "      <failure message=\"at the end of this course it does not hold\" type=\"broken\">"),
-        std::string::npos)
+    EXPECT_NE(xml.find("name=\"Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON\" file=\"p.seq\">\n"
+                       "      <failure message=\"at the end of this course its condition has not stayed as "
+                       "required\" type=\"broken\">"),
+              std::string::npos)
         << xml;
 }
 

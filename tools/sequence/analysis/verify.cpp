@@ -56,7 +56,7 @@ const char* reason_of(const Property& property) {
         case Form::only_from:
             return "it holds at the end of this course, and FROM's condition never held when a scan began";
         case Form::stays:
-            return "at the end of this course it does not hold";
+            return "at the end of this course its condition has not stayed as required";
         case Form::changes_only_in:
             return "it changes at the end of this course";
         case Form::scan_ends:
