@@ -361,7 +361,8 @@ class Dropped(Case):
         told = self.call("recipe", "load", "Long").stdout
         self.assertIn("recipe 'Long': Length 150 mm is not loaded, its default 80 mm is in its place: it takes 10 mm to 100 mm", told)
         self.assertEqual(self.ctl("upload", first)["dropped"], [])
-        self.ctl("recipe", "load", "Long")
+        self.assertEqual(self.ctl("recipe", "load", "Long")["recipe_name"], "Long")
+        self.assertTrue(self.call("set-points").stdout.endswith("\nrecipe 'Long'\n"))
         told = self.call("upload", plain).stdout
         self.assertIn("\nLength 150 mm is dropped: the table has no such set-point", told)
         self.assertIn("\nrecipe 'Long': Length 150 mm is not loaded: the table has no such set-point", told)

@@ -32,7 +32,19 @@ Json point_json(const set_points::SetPoint& point, const KeptSetPoints& kept, st
             {"initial", number(point.initial)}};
 }
 
-std::string state_text(const KeptSetPoints& kept) {
+std::uint32_t active_recipe(const KeptSetPoints& kept) {
+    return (kept.state & gw::kActiveRecipe) >> 8;
+}
+
+/// Empty: none is active.
+std::string active_recipe_name(Session& session, const KeptSetPoints& kept) {
+    if (active_recipe(kept) == 0) return {};
+    for (const Recipe& recipe : read_recipes(session.gateway(), kept))
+        if (recipe.number == active_recipe(kept)) return recipe.name;
+    return {};
+}
+
+std::string state_text(const KeptSetPoints& kept, const std::string& recipe) {
     std::string text;
     if ((kept.state & gw::kChangeWaits) != 0)
         text +=
@@ -40,8 +52,8 @@ std::string state_text(const KeptSetPoints& kept) {
             "or a stop";
     if ((kept.state & gw::kValuesDamaged) != 0)
         text += "\nthe stored values are damaged: older ones or the defaults stand in; set them anew";
-    if (const std::uint32_t recipe = (kept.state & gw::kActiveRecipe) >> 8; recipe != 0)
-        text += fmt::format("\nrecipe {}{}", recipe,
+    if (!recipe.empty())
+        text += fmt::format("\nrecipe '{}'{}", recipe,
                             (kept.state & gw::kRecipeDiffers) != 0 ? ", changed since it was loaded" : "");
     return text;
 }
@@ -61,11 +73,13 @@ void tell_set_points(Session& session, const KeptSetPoints& kept,
                             set_points::text_of(point, kept.wanted[i]), set_points::range_text(point), force);
         all.push_back(point_json(point, kept, i));
     }
-    session.tell(text + state_text(kept) + lines_of(dropped),
+    const std::string recipe_name = active_recipe_name(session, kept);
+    session.tell(text + state_text(kept, recipe_name) + lines_of(dropped),
                  {{"set_points", all},
                   {"waits", (kept.state & gw::kChangeWaits) != 0},
                   {"damaged", (kept.state & gw::kValuesDamaged) != 0},
-                  {"recipe", (kept.state & gw::kActiveRecipe) >> 8},
+                  {"recipe", active_recipe(kept)},
+                  {"recipe_name", recipe_name},
                   {"differs", (kept.state & gw::kRecipeDiffers) != 0},
                   {"dropped", json_of(dropped)}});
 }
@@ -127,7 +141,7 @@ std::string lack_text(const Recipe& recipe, const set_points::Record& record, st
 
 void list_recipes(Session& session) {
     const KeptSetPoints kept = read_set_points(session.gateway());
-    const std::uint32_t active = (kept.state & gw::kActiveRecipe) >> 8;
+    const std::uint32_t active = active_recipe(kept);
     std::string text;
     Json all = Json::array();
     for (const Recipe& recipe : read_recipes(session.gateway(), kept)) {
