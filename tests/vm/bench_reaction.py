@@ -18,6 +18,7 @@ WANTED = {"median": 1.2, "p99": 1.5}
 LINE = 0
 QUIET = 8000  # us: of an order from its first byte to the motor's answer
 PRIORITY = 50
+LONGEST_TURN = 1200  # s: of both programs; 200 clients with every instruction counted take most of it
 # Answers each edge with one order. Commands by 001 section 2.7.
 PROGRAM = """
 PROGRAM Reaction
@@ -164,7 +165,7 @@ def run(phases, share, options):
         file.write(CONFIG)
     phases.say("starting the board")
     with board.Board(share, script(options), more=options.more) as machine:
-        assert machine.finish() == 0
+        assert machine.finish(options.turns * LONGEST_TURN) == 0
     phases.say("measured")
     return 0 if report(share, options) or options.check else 1
 
