@@ -327,6 +327,7 @@ void MidiMotor::work(base::Instant now) {
 MidiNext MidiMotor::next_message(base::Instant now) {
     if (!session_.is_up()) return session_.start_up(stop_wanted_, now);
     if (session_.must_ask()) return midi_query(midi::GET_STATUS);
+    const bool more_may_follow = orders_.full();
     for (;;) {
         if (const MidiNext next = next_command(now); next != kNothing) return next;
         if (zero_unclear_ || registers_.awaits_position()) return midi_query(midi::GET_POSITION);
@@ -334,6 +335,7 @@ MidiNext MidiMotor::next_message(base::Instant now) {
         orders_.end();
         if (orders_.empty()) break;
         execute(orders_.begin());
+        if (more_may_follow && orders_.empty()) return kNothing;
     }
     if (!status_is_new_) return midi_query(midi::GET_STATUS);
     if (const MidiNext next = next_access(); next != kNothing) return next;
@@ -363,6 +365,9 @@ MidiNext MidiMotor::next_query(base::Instant now) {
     if (motion_.unexpected_motion()) return midi_command(midi::STOP);
     if (!session_.is_alone(now)) return kNothing;
     const MidiNext motion = guidance.next_motion();
+    // POSITION(P1, V1) is V1, then P1: no motion towards the old P_SOLL in between, which could not be
+    // redirected.
+    if (!orders_.empty()) return motion == midi_command(midi::STOP) ? motion : kNothing;
     if (guidance.limitation() != Limitation::none) raise(MidiFault::bad_value, guidance.limitation());
     return motion;
 }

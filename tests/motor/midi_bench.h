@@ -101,6 +101,8 @@ class MidiBench {
 
 inline constexpr std::uint8_t kPositionP1 = 0x40;  ///< position mode, P1 selected
 inline constexpr std::uint8_t kPositionP2 = 0x41;
+inline constexpr std::uint8_t kPositionV1 = 0x48;
+inline constexpr std::uint8_t kStop = 0x65;
 inline constexpr std::uint8_t kVelocityV1 = 0x28;
 inline constexpr std::uint8_t kInitV1 = 0x08;
 inline constexpr std::uint8_t kInitA1 = 0x10;

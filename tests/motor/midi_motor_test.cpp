@@ -63,6 +63,55 @@ TEST_P(MidiMotorTest, ATargetGivenInMidMoveWaitsForTheEndOfTheMove) {
     EXPECT_FALSE(driver.error());
 }
 
+/// POSITION(P1, V1), as a scan sends it: V1 in position mode, then P1 (001 section 2.7).
+TEST_P(MidiMotorTest, AVelocityBeforeTheTargetStartsNothingTowardsTheOldOne) {
+    set_profile();
+    bench.order(longword(registers::P1, 4'096));
+    go(49'152);
+    bench.pass(300ms);
+    ASSERT_TRUE(module.moving());
+    bench.order_and_settle(fast(kStop));
+    ASSERT_TRUE(bench.until([&] { return !module.moving(); }));
+    bench.pass(500ms);
+    const std::int32_t stopped_at = module.position();
+    ASSERT_GT(stopped_at, 10'000);
+    ASSERT_LT(stopped_at, 119'000);
+    bench.order(fast(kPositionV1));
+    bench.order(fast(kPositionP1));
+    std::int32_t farthest = stopped_at;
+    ASSERT_TRUE(bench.until(
+        [&] {
+            farthest = std::max(farthest, module.position());
+            return driver.in_position();
+        },
+        20s));
+    EXPECT_EQ(module.position(), 10'000);
+    EXPECT_LE(farthest, stopped_at + 5);
+    EXPECT_EQ(bench.count(midi::GO_TO), 2U);
+    EXPECT_FALSE(driver.error());
+}
+
+/// A scan with more orders than the driver queues: the rest comes at the next poll.
+TEST_P(MidiMotorTest, AVelocityBeforeTheTargetStartsNothingWhereTheQueueEndsBetweenThem) {
+    set_profile();
+    bench.order(longword(registers::P1, 4'096));
+    go(49'152);
+    ASSERT_TRUE(bench.arrives());
+    bench.order_and_settle(fast(kStop));
+    bench.pass(500ms);
+    std::vector<Order> scan(7, word(registers::A1, 81));
+    scan.push_back(longword(registers::P1 + 2, 4'096));
+    for (const Order& order : {fast(kPositionV1), fast(kPositionP1)}) scan.push_back(order);
+    scan.insert(scan.begin(), longword(registers::P_SOLL, 20'480));
+    for (std::size_t next = 0; next < scan.size();) {
+        while (next < scan.size() && driver.has_room()) driver.send(scan[next++]);
+        bench.step(bench.now + 1ms);
+    }
+    EXPECT_TRUE(bench.arrives());
+    EXPECT_EQ(module.position(), 10'000);
+    EXPECT_EQ(bench.count(midi::GO_TO), 2U);
+}
+
 TEST_P(MidiMotorTest, WithoutValuesOfItsOwnTheModulesHold) {
     go(4'096);
     EXPECT_TRUE(bench.arrives());
