@@ -285,5 +285,29 @@ TEST_F(Courses, WhatIsNoTableIsRefused) {
     EXPECT_EQ(read("out"), "");
 }
 
+TEST_F(Courses, NoWayBackNamesTheOutputThatStaysOn) {
+    const auto said = [&](const std::string& work) {
+        found_in(
+            "PROGRAM P MOTOR MAC140; VAR_OUTPUT Clamp AT OUT0 : BOOL; END_VAR\n"
+            "STEP Idle: OWN ERROR; IF IN0 THEN SET Clamp; NEXT := Work; END_IF END_STEP\n"
+            "STEP Work: OWN ERROR; IF NOT IN0 THEN " +
+            work +
+            "NEXT := Idle; END_IF END_STEP\n"
+            "STEP Open: OWN ERROR; IF IN1 AND IN2 AND NOT IN2 THEN RESET Clamp; NEXT := Idle; END_IF "
+            "END_STEP\nEND_PROGRAM\n");
+        for (const Json& result : results()) {
+            if (result["code"] == "V003" && result["verdict"] != "proved") return result.dump();
+        }
+        return std::string();
+    };
+    const std::string text = said("");
+    EXPECT_NE(
+        text.find("steps Idle, Work lead to each other only, and none of them switches Clamp off: Idle is "
+                  "never entered again with Clamp off"),
+        std::string::npos)
+        << text;
+    EXPECT_EQ(said("RESET Clamp; "), "");
+}
+
 }  // namespace
 }  // namespace nplc::seqc

@@ -55,6 +55,38 @@ Steps without_copies(Steps steps, const Names& names) {
     return result;
 }
 
+/// The outputs that are on in every place of these steps.
+std::uint8_t always_on(const Explorer& explorer, Steps steps) {
+    unsigned outputs = 0xF;
+    for (Explorer::Node node = 0; node < explorer.size(); ++node) {
+        const Place& place = explorer.place(node);
+        if ((steps & bit_of(place.step)) != 0) outputs &= place.outputs;
+    }
+    return static_cast<std::uint8_t>(outputs);
+}
+
+/// With an output that SET has switched on, the first step may have a copy in the group: only how it began
+/// does not come back.
+std::string no_way_back(const Subject& subject, Steps group, Steps first) {
+    const Names& names = subject.names;
+    const Steps named_first = without_copies(first, names) & ~Steps{1};
+    const bool comes_back = (without_copies(group, names) & named_first) != 0;
+    if (!comes_back)
+        return fmt::format("steps {} lead to each other only, never back to {}", names_of(group, names),
+                           names_of(first, names));
+    const unsigned stays_on =
+        always_on(subject.explorer, group) & ~unsigned{always_on(subject.explorer, first)};
+    if (stays_on == 0)
+        return fmt::format(
+            "steps {} lead to each other only, and never back to {} as it was at the beginning",
+            names_of(group, names), names_of(named_first, names));
+    return fmt::format(
+        "steps {0} lead to each other only, and none of them switches {1} off: {2} is never "
+        "entered again with {1} off",
+        names_of(group, names), outputs_text(static_cast<std::uint8_t>(stays_on), names),
+        names_of(named_first, names));
+}
+
 void find_never_reached(const Subject& subject, std::vector<Finding>& findings) {
     const Machine& machine = subject.explorer.machine();
     const Steps begun = without_copies(subject.explorer.steps_begun(), subject.names);
@@ -97,10 +129,7 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
         told_groups.push_back(named);
         auto course = course_into(subject, step);
         if (!course) continue;
-        findings.push_back({"V003", step,
-                            fmt::format("steps {} lead to each other only, never back to {}",
-                                        names_of(group, subject.names), names_of(graph.first, subject.names)),
-                            std::move(*course)});
+        findings.push_back({"V003", step, no_way_back(subject, group, graph.first), std::move(*course)});
     }
 }
 
