@@ -159,5 +159,133 @@ TEST(Advice, AStepThatIsNeverLeftCanBeMeant) {
     EXPECT_EQ(told(one_part("ALLOW W019 BECAUSE 'one part a day: the supply goes off'; ")), "");
 }
 
+/// Goes to a place within a time. `late`: what the end of the time leads to, `steps` what may stand there.
+std::string mover(const std::string& late, const std::string& in_fault, const std::string& steps = {},
+                  const std::string& allows = {}) {
+    return kHead +
+           "VAR_MOTOR There AT P1 := 5 rev; Fast AT V1 := 600 rpm; END_VAR\n"
+           "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+           "STEP Idle: IF R_TRIG(Start) THEN NEXT := Go; END_IF END_STEP\n"
+           "STEP Go: ENTRY POSITION(There); " +
+           allows + "IF INPOS WITHIN T#3s THEN NEXT := Idle; ELSE " + late + " END_IF END_STEP\n" + steps +
+           fault(in_fault);
+}
+
+TEST(Advice, ATimeLimitIsToStopTheMotor) {
+    EXPECT_EQ(told(mover("NEXT := Fault;", "")), "W047");
+    EXPECT_EQ(told(mover("NEXT := Fault;", "", "", "ALLOW W047 BECAUSE 'a slow belt'; ")), "");
+    EXPECT_EQ(told(mover("STOP; NEXT := Fault;", "")), "");
+    for (const char* order : {"STOP", "INIT(Fast)", "MODE_REG := 0", "V_SOLL := 0"})
+        EXPECT_EQ(told(mover("NEXT := Fault;", std::string("ENTRY ") + order + "; ")), "") << order;
+    const std::string halt =
+        "STEP Halt: INIT(Fast); NEXT := Halted; END_STEP\n"
+        "STEP Halted: OUT OUT0; IF R_TRIG(Ack) THEN NEXT := Idle; END_IF END_STEP\n";
+    EXPECT_EQ(told(mover("NEXT := Halt;", "", halt)), "") << "a scan later";
+}
+
+TEST(Advice, TimerBesideInPosIsALimitToo) {
+    const auto limited = [](const std::string& in_fault) {
+        return kHead +
+               "VAR_MOTOR There AT P1 := 5 rev; Fast AT V1 := 600 rpm; END_VAR\n"
+               "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+               "STEP Idle: IF R_TRIG(Start) THEN NEXT := Go; END_IF END_STEP\n"
+               "STEP Go: ENTRY POSITION(There); ENTRY TIMER := T#3s; IF INPOS AND NOT Start THEN NEXT := "
+               "Idle; ELSIF TIMER.Q THEN NEXT := Fault; END_IF END_STEP\n" +
+               fault(in_fault);
+    };
+    EXPECT_EQ(told(limited("")), "W047");
+    EXPECT_EQ(told(limited("ENTRY STOP; ")), "");
+}
+
+TEST(Advice, AStepThatAwaitsTheMoveNeedsNoStop) {
+    const std::string slow =
+        "STEP Slow: OUT OUT0; IF INPOS WITHIN T#9s THEN NEXT := Idle; ELSE NEXT := Fault; END_IF END_STEP\n";
+    EXPECT_EQ(told(mover("NEXT := Slow;", "ENTRY STOP; ", slow)), "");
+    EXPECT_EQ(told(mover("NEXT := Slow;", "", slow)), "W047");
+    const std::string holding =
+        "STEP Hold: IF TIMER.Q THEN INIT(Fast); NEXT := Idle; END_IF END_STEP\n";  // it presses for a time
+    EXPECT_EQ(told(mover("TIMER := T#1s; NEXT := Hold;", "ENTRY STOP; ", holding)), "");
+}
+
+/// Runs while Start is on; `leaves`: what ends that.
+std::string conveyor(const std::string& leaves, const std::string& steps = {}) {
+    return kHead +
+           "VAR_MOTOR Fast AT V1 := 600 rpm; END_VAR\n"
+           "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+           "STEP Idle: IF R_TRIG(Start) THEN NEXT := Run; END_IF END_STEP\n"
+           "STEP Run: ENTRY VELOCITY(Fast); " +
+           leaves + " END_STEP\n" + steps + fault("ENTRY STOP; ");
+}
+
+TEST(Advice, ARunIsToBeEnded) {
+    EXPECT_EQ(told(conveyor("IF NOT Start THEN NEXT := Idle; END_IF")), "W048");
+    EXPECT_EQ(
+        told(conveyor("ALLOW W048 BECAUSE 'the belt never stops'; IF NOT Start THEN NEXT := Idle; END_IF")),
+        "");
+    for (const char* order : {"STOP", "INIT(Fast)", "V_SOLL := 0"})
+        EXPECT_EQ(told(conveyor(std::string("IF NOT Start THEN ") + order + "; NEXT := Idle; END_IF")), "")
+            << order;
+}
+
+TEST(Advice, AGearStandsWithItsMaster) {
+    EXPECT_EQ(told(kHead +
+                   "VAR_MOTOR Fast AT V1 := 600 rpm; END_VAR\n"
+                   "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+                   "STEP Idle: IF R_TRIG(Start) THEN NEXT := Run; END_IF END_STEP\n"
+                   "STEP Run: ENTRY MODE_REG := GP_MODE; IF NOT Start THEN NEXT := Idle; END_IF END_STEP\n" +
+                   fault("ENTRY STOP; ")),
+              "");
+}
+
+TEST(Advice, AStepInTheMiddleOfARunIsPartOfIt) {
+    const std::string to_count =
+        "IF Well THEN NEXT := Count; ELSIF NOT Start THEN STOP; NEXT := Idle; END_IF";
+    EXPECT_EQ(
+        told(conveyor(to_count, "STEP Count: OUT OUT0; IF NOT Well THEN NEXT := Run; END_IF END_STEP\n")),
+        "");
+    EXPECT_EQ(told(conveyor("IF Well THEN NEXT := Eject; END_IF",
+                            "STEP Eject: OUT OUT0; IF NOT Well THEN STOP; NEXT := Idle; END_IF END_STEP\n")),
+              "");
+    EXPECT_EQ(told(conveyor("IF Well THEN NEXT := Eject; END_IF",
+                            "STEP Eject: OUT OUT0; IF NOT Well THEN NEXT := Idle; END_IF END_STEP\n")),
+              "W048");
+    EXPECT_EQ(told(conveyor("IF Well THEN NEXT := Creep; END_IF",
+                            "STEP Creep: ENTRY V_SOLL := 60 rpm; IF NOT Well THEN STOP; NEXT := Idle; END_IF "
+                            "END_STEP\n")),
+              "");
+}
+
+TEST(Advice, AnErrorIsToBeAcknowledged) {
+    const auto resets = [](const std::string& leaves, const std::string& steps = {}) {
+        return kHead +
+               "ON NOT Well NEXT := Fault;\n"
+               "VAR_MOTOR There AT P1 := 5 rev; Fast AT V1 := 600 rpm; END_VAR\n"
+               "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+               "STEP Idle: IF R_TRIG(Start) AND NOT Ack THEN NEXT := Go; END_IF END_STEP\n"
+               "STEP Go: ENTRY POSITION(There); IF INPOS THEN NEXT := Idle; END_IF END_STEP\n"
+               "STEP Fault: OWN ERROR; ENTRY STOP; " +
+               leaves + " END_STEP\n" + steps + "END_PROGRAM\n";
+    };
+    const auto with = [&](const std::string& asks) {
+        return resets("IF ANY ERROR" + asks + " THEN RESET_ERROR; NEXT := POWER_UP; END_IF");
+    };
+    EXPECT_EQ(told(with("")), "W049");
+    EXPECT_EQ(told(with(" AND Well")), "W049") << "no person: the guard is over";
+    EXPECT_EQ(told(resets("ENTRY TIMER := T#2s; IF ANY ERROR AND TIMER.Q AND Well THEN RESET_ERROR; NEXT := "
+                          "POWER_UP; END_IF")),
+              "W049");
+    EXPECT_EQ(
+        told(resets("ALLOW W049 BECAUSE 'the host counts them'; IF ANY ERROR AND Well THEN RESET_ERROR; "
+                    "NEXT := POWER_UP; END_IF")),
+        "");
+    for (const char* asks : {" AND Ack", " AND R_TRIG(Ack)", " AND Well AND F_TRIG(Ack)", " AND NOT Start"})
+        EXPECT_EQ(told(with(asks)), "") << asks;
+    EXPECT_EQ(told(resets("IF ANY ERROR AND R_TRIG(Ack) THEN NEXT := Clear; END_IF",
+                          "STEP Clear: OWN ERROR; IF ANY ERROR THEN RESET_ERROR; NEXT := POWER_UP; END_IF "
+                          "END_STEP\n")),
+              "")
+        << "asked on the way";
+}
+
 }  // namespace
 }  // namespace nplc::seqc

@@ -1,4 +1,4 @@
-// Whether a machine moves without a command: after a fault, after a guard, at power-up.
+// Whether a machine moves, or resets a fault, without a command: after a fault, after a guard, at power-up.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -118,16 +118,62 @@ class Restart {
         }
     }
 
+    /// Whatever the inputs are, as long as no guard holds. Where the motor may start again too, that is said.
+    void automatic_reset() {
+        if (fault_span_.length == 0 || restarts_) return;
+        const Images held = without_guards();
+        Images reset;
+        const Rule* by = nullptr;
+        const Send* order = nullptr;
+        Reached seen;
+        std::deque<std::uint8_t> open;
+        const auto follow = [&](const Rule& rule, const Images& on) {
+            const auto sent =
+                std::find_if(rule.action.sends.begin(), rule.action.sends.end(),
+                             [](const Send& send) { return kind_of(send) == OrderKind::reset_error; });
+            if (sent != rule.action.sends.end()) {
+                reset |= on;
+                if (order == nullptr) {
+                    by = &rule;
+                    order = &*sent;
+                }
+            } else if (rule.action.next && (on & ~seen.at(*rule.action.next)).any()) {
+                seen.at(*rule.action.next) |= on;
+                open.push_back(*rule.action.next);
+            }
+        };
+        for (const StepPlan& step : plan_.steps) {
+            for (const Rule& rule : step.rules) {
+                if (!is_fault(step.number) && rule.action.next && is_fault(*rule.action.next) &&
+                    needs_error(rule.when))
+                    follow(rule, held);
+            }
+        }
+        for (; !open.empty(); open.pop_front()) {
+            const StepPlan* step = steps_.at(open.front());
+            if (step == nullptr) continue;
+            for (const Rule& rule : step->rules) {
+                const Images on =
+                    seen.at(step->number) & images_of(rule.when & truth_of_bit(kErrorBit), true);
+                if (on.any()) follow(rule, on);
+            }
+        }
+        if (order == nullptr || reset != held) return;
+        const bool has_condition = by->condition.length != 0 && !is_on_error(by->condition);
+        report_.add("W049", has_condition ? by->condition : order->span,
+                    "an ERROR is reset here by itself: on the way from it nobody is asked for an "
+                    "acknowledgement",
+                    "wait for a button to be pressed, as in ANY ERROR AND R_TRIG(Ack); or write ALLOW W049 "
+                    "BECAUSE 'reason'; in the step");
+    }
+
     /// Whatever the inputs are, as long as no guard holds.
     void at_power_up() {
-        Images guarded;
-        for (const ast::OnCondition& on : program_.on_conditions)
-            for_each_entry(on, [&](const Truth& when, const Rule&) { guarded |= images_of(when, false); });
         if (steps_.front() == nullptr) return;
         here_ = {};
         Exit exit{};
         exit.next = 0;
-        exit.held = guarded.all() ? guarded : ~guarded;
+        exit.held = without_guards();
         const Moved motion = motion_behind(exit);
         if (motion.images != exit.held) return;
         report_.add(
@@ -144,6 +190,18 @@ class Restart {
         std::uint8_t next = 0;
         Images held;
     };
+
+    bool is_on_error(Span condition) const {
+        return program_.on_error && program_.on_error->span == condition;
+    }
+
+    /// The inputs with which no guard holds; all, if there are none.
+    Images without_guards() const {
+        Images guarded;
+        for (const ast::OnCondition& on : program_.on_conditions)
+            for_each_entry(on, [&](const Truth& when, const Rule&) { guarded |= images_of(when, false); });
+        return guarded.all() ? guarded : ~guarded;
+    }
 
     bool is_fault(std::uint8_t number) const {
         return fault_span_.length != 0 && steps_.at(number) != nullptr &&
@@ -252,6 +310,7 @@ class Restart {
         const Span place = is_guard(program_, written) ? here_ : written;  // a step can ALLOW it
         const bool by_guard = guard.length != 0;
         if (motion.first == nullptr || report_.has("W037", place) || is_acknowledged(rule, by_guard)) return;
+        restarts_ = restarts_ || !by_guard;
         Diagnostic& d = report_.add(
             "W037", place,
             by_guard ? "the motor may start again by itself when the guard of this step ends: no other input "
@@ -269,7 +328,8 @@ class Restart {
     Report& report_;
     std::array<const StepPlan*, 64> steps_{};
     Span fault_span_;
-    Span here_;  ///< the step that is looked at
+    Span here_;              ///< the step that is looked at
+    bool restarts_ = false;  ///< after a fault
 };
 
 }  // namespace
@@ -278,6 +338,7 @@ void check_restart(const ast::Program& program, const Plan& plan, Scope& scope, 
     Restart restart(program, plan, program.on_error ? scope.step(*program.on_error) : std::nullopt, report);
     restart.after_fault();
     if (has_terms(plan)) return;
+    restart.automatic_reset();
     for (const ast::OnCondition& on : program.on_conditions) restart.after_guard(on);
     restart.at_power_up();
 }

@@ -91,8 +91,10 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W040", Severity::warning, Phase::motion},     {"W041", Severity::warning, Phase::motion},
     {"W042", Severity::warning, Phase::motion},     {"W043", Severity::warning, Phase::motion},
     {"W044", Severity::warning, Phase::motion},     {"W045", Severity::warning, Phase::motion},
-    {"W046", Severity::warning, Phase::motion},     {"W050", Severity::warning, Phase::motion},
-    {"W051", Severity::warning, Phase::motion},     {"W052", Severity::warning, Phase::motion},
+    {"W046", Severity::warning, Phase::motion},     {"W047", Severity::warning, Phase::motion},
+    {"W048", Severity::warning, Phase::motion},     {"W049", Severity::warning, Phase::motion},
+    {"W050", Severity::warning, Phase::motion},     {"W051", Severity::warning, Phase::motion},
+    {"W052", Severity::warning, Phase::motion},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {
@@ -103,7 +105,7 @@ constexpr const CodeRow* find_code(std::string_view code) {
 
 /// Warnings about code that may be intended: a step can ALLOW them, like the own findings of `seqc verify`.
 constexpr bool is_advice(std::string_view code) {
-    return code == "W019" || code == "W022" || (code >= "W035" && code != "W039" && code <= "W046");
+    return code == "W019" || code == "W022" || (code >= "W035" && code != "W039" && code <= "W049");
 }
 
 /// A code of the table; any other literal does not compile.
