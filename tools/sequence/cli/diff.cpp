@@ -33,8 +33,10 @@ int diff(const DiffArguments& options) {
 
 void add_diff(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<DiffArguments>();
-    arguments::App& command = *app.add_subcommand(
-        "diff", "What B does otherwise than A, in words. Exit code 0: nothing, 1: something");
+    arguments::App& command = *app.add_subcommand("diff", "What B does otherwise than A, in words");
+    command.footer(
+        "Exit codes: 0 B does the same as A, 1 it does something else,\n"
+        "2 wrong usage, a program with errors, or a file that cannot be read or understood.");
     command.add_option("A", options->before, "The older program or table")->required();
     command.add_option("B", options->now, "The newer one")->required();
     command.add_flag("--json", options->json, "JSON for other programs");

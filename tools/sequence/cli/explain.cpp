@@ -209,9 +209,10 @@ int explain(const ExplainArguments& options) {
 
 void add_explain(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<ExplainArguments>();
-    arguments::App& command = *app.add_subcommand(
-        "explain",
-        "Tell what an error, a warning or a finding of verify means, with a wrong and a right program");
+    arguments::App& command = *app.add_subcommand("explain",
+                                                  "Tell what an error, a warning or a finding of verify "
+                                                  "means, with a wrong and a right program; or what a "
+                                                  "word of the language does");
     command.add_option("code", options->code,
                        "Such as E012 or W004, or a word such as TIMER; without one all codes are listed");
     command.add_flag("--json", options->json, "Print it as JSON");
