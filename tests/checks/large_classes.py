@@ -25,11 +25,6 @@ CLASSES = {
     "firmware/causes/why_facts.h:Facts": Large(
         "one question per fact that the rules of `why` name, each of a line or two on the one condition", methods=57
     ),
-    "firmware/faces/deployment/include/deployment/deployment.h:Deployment": Large(
-        "one course of stages from order to trial; each stage reads the order, the record on disk and the seat",
-        methods=45,
-        members=30,
-    ),
     "firmware/faces/model/include/faces/axis_loop.h:AxisLoop": Large(
         "one order after another between two scans: stops, changes and the motor's accesses wait for each other", members=28
     ),

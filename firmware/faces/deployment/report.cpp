@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "active_table.h"
 #include "deployment/deployment.h"
-#include "disk.h"
 #include "faces/program_version.h"
-#include "record.h"
+#include "ledger.h"
 
 namespace nplc::deployment {
 
@@ -39,26 +39,31 @@ std::string proof_in(std::span<const std::uint8_t> table) {
 }  // namespace
 
 std::optional<orders::Report> Deployment::report() const {
-    if (!knows_table_ || stage_ == Stage::starting) return std::nullopt;
+    if (!active_->is_known() || stage_ == Stage::starting) return std::nullopt;
+    const Record& record = ledger_->record();
+    const faces::AxisImage& image = active_->image();
+    const faces::AxisTable* table = active_->table();
     orders::Report report{.target = target_, .firmware = faces::program_version()};
-    report.run_state = gw::name_of(image_.run_state());
-    report.table_sha256 = active_;
-    report.table_crc = table_->crc;
-    report.table_bytes = static_cast<std::uint32_t>(table_->uploaded.size());
-    report.proof = proof_in(table_->uploaded);
-    if (record_->runs_sha256 == active_) {
-        report.table_name = record_->runs_name;
-        report.running = record_->runs_since;
+    report.run_state = gw::name_of(image.run_state());
+    report.table_sha256 = active_->sha256();
+    report.table_crc = table->crc;
+    report.table_bytes = static_cast<std::uint32_t>(table->uploaded.size());
+    report.proof = proof_in(table->uploaded);
+    if (record.runs_sha256 == active_->sha256()) {
+        report.table_name = record.runs_name;
+        report.running = record.runs_since;
     }
-    report.set_points_sha256 = hash_of_set_points(image_);
-    report.recipe = faces::active_recipe(image_);
-    report.settings_sha256 = hash_of_settings(image_);
-    report.state = stage_ == Stage::waiting ? State::waiting : record_->state;
-    report.counter = record_->counter;
-    if (!record_->order.empty()) report.order_sha256 = orders::hex(orders::sha256(record_->order));
-    report.text = !damage_.empty() ? damage_ : !saving_.error.empty() ? saving_.error : record_->text;
+    report.set_points_sha256 = hash_of_set_points(image);
+    report.recipe = faces::active_recipe(image);
+    report.settings_sha256 = hash_of_settings(image);
+    report.state = stage_ == Stage::waiting ? State::waiting : record.state;
+    report.counter = record.counter;
+    if (!record.order.empty()) report.order_sha256 = orders::hex(orders::sha256(record.order));
+    report.text = !ledger_->damage().empty()  ? ledger_->damage()
+                  : !ledger_->error().empty() ? ledger_->error()
+                                              : record.text;
     if (!waits_.empty()) report.text += (report.text.empty() ? "" : "; ") + waits_;
-    report.since = record_->since;
+    report.since = record.since;
     report.refusals = refusals_.count;
     report.refusal = refusals_.last;
     report.refused = refusals_.at;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,15 +12,18 @@
 #include "deployment/file.h"
 #include "deployment/settings.h"
 #include "faces/axis_model.h"
-#include "faces/upload.h"
 #include "orders/order.h"
 #include "orders/pieces.h"
 #include "orders/report.h"
 
 namespace nplc::deployment {
 
-class Disk;
+class ActiveTable;
+class Changeover;
+class Ledger;
 struct Record;
+class Trial;
+enum class Outcome : std::uint8_t;
 
 /// Handles the orders for one axis: checks them, collects their tables, stores, activates and monitors these,
 /// and rolls back to the former table. Does no network I/O. Each state is on the disk before its consequences
@@ -54,34 +58,9 @@ class Deployment {
         saving,
         fetching,
         waiting,
-        seating,   ///< the operator's seat has been requested
-        stopping,  ///< the sequence has been stopped
-        storing,
-        activating,
-        running,  ///< the sequence has been started
+        changing,  ///< the table, or the sequence is being run again after that
         trial,
         failing,
-    };
-    /// A table that is being stored and activated.
-    struct Job {
-        std::vector<std::uint8_t> bytes{};
-        orders::Hash hash{};
-        bool is_rollback = false;
-    };
-    struct Trial {
-        base::Microseconds ran{};
-        base::Microseconds healthy{};  ///< since the last ERROR
-        std::string error{};           ///< the last error
-        bool was_in_step = false;
-        base::Instant watched{};                      ///< last
-        std::optional<std::uint32_t> first_reason{};  ///< SAFE_REASON from before the trial
-    };
-    /// A write in progress, and the action after it.
-    struct Saving {
-        std::unique_ptr<Record> record{};  ///< null: none in progress
-        std::vector<File> files{};
-        std::function<void()> then{};
-        std::string error{};
     };
     struct Refusals {
         std::uint64_t count = 0;
@@ -90,60 +69,38 @@ class Deployment {
     };
     using State = orders::State;
 
-    std::string path(const char* file) const;
-    void read_stored();
-    void note(bool is_error, const std::string& text) const;
     void refuse(const std::string& text);
     std::string why_not(const orders::SignedOrder& order) const;
     bool may_be_replaced() const;
     void accept(const orders::SignedOrder& order, const std::string& text);
 
     void follow_table();
-    bool is_active(std::string_view sha256) const { return !active_.empty() && active_ == sha256; }
-    bool is_ordered_active() const { return order_ && is_active(orders::hex(order_->sha256)); }
+    bool is_ordered_active() const;
     void save(const Record& next, std::vector<File> files, std::function<void()> then);
-    void move_to(State state, const std::string& text, Stage stage);
-    void end(State state, const std::string& text);
-    void look_at_disk();
-    void look_at_commands();
+    void move_to(State state, const std::string& text, Stage stage, std::function<void()> then = {});
+    void end(State state, const std::string& text, std::function<void()> then = {});
 
     void take_up();
+    void take_next();
     void look_at_artifact();
     void wait();
     bool may_go_on();
-    void begin_job();
-    void give_way(const std::string& why);
-    void take_seat(const faces::Completion& ended);
-    void stop_first();
-    void store();
-    void upload_ended();
-    void activate();
-    void try_activation(const faces::Completion& ended);
-    void activated();
-    void run_after_saving(bool runs_again, Stage stage);
-    void run_again();
-    void end_of_run(const faces::Completion& ended);
-    void forget_run(const std::string& why);
-    void leave_seat();
+    void begin_change();
+    void follow_change(Outcome outcome);
+    void activated(bool was_rollback);
     void watch();
     void fail_trial(const std::string& why);
     void go_back();
-    bool submit(const faces::Command& command);
 
     Settings settings_;
     std::string target_;
     faces::AxisModel& axis_;
-    Tell tell_;
-    std::unique_ptr<faces::CommandDesk::Client> client_;
-    std::unique_ptr<Disk> disk_;
-    std::unique_ptr<Record> record_;
-    std::string damage_;  ///< damage of the stored state: no order is accepted; empty: none
+    Tell note_;  ///< with the axis's name in front
+    std::unique_ptr<Ledger> ledger_;
+    std::unique_ptr<ActiveTable> active_;
+    std::unique_ptr<Changeover> changeover_;  ///< null: no order is taken
+    std::unique_ptr<Trial> trial_;
     Moment moment_{};
-    faces::AxisImage image_{};
-    std::shared_ptr<const faces::AxisTable> table_;
-    std::string active_;  ///< its SHA-256; empty: no table
-    bool knows_table_ = false;
-    bool has_news_ = false;  ///< change of the table that is not on the disk yet
 
     Stage stage_ = Stage::starting;
     Stage after_run_ = Stage::idle;
@@ -151,17 +108,8 @@ class Deployment {
     std::string order_hash_;              ///< SHA-256 of its text
     std::string next_order_;              ///< handled when the present one has ended
     std::unique_ptr<orders::Pieces> pieces_;
-    Job job_;
-    std::optional<faces::Upload> upload_;
-    std::uint32_t command_ = 0;  ///< command in progress; 0: none
-    /// AxisImage::stops when the sequence was stopped, if it ran before; it is restarted if no other client
-    /// stops it.
-    std::optional<std::uint32_t> ran_{};
     base::Instant not_before_{};
-    base::Instant since_{};  ///< start of the stage
-    std::string waits_;      ///< reason for waiting; empty: not waiting
-    Trial trial_;
-    Saving saving_;
+    std::string waits_;  ///< reason for waiting; empty: not waiting
     Refusals refusals_;
 };
 
