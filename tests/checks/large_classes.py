@@ -84,10 +84,6 @@ CLASSES = {
     "host-sim/nanoplc_sim/session.h:Session": Large(
         "owns the world, the scenario and the outputs of a run, each of which refers to those before it", members=22
     ),
-    "tests/soak/soak_run.h:SoakRun": Large(
-        "each invariant is judged by what the disturbances did before; the books for that would be passed around whole",
-        members=27,
-    ),
     "tools/macreg/ui/include/macreg/ui_model.h:UiModel": Large(
         "all that a screen shows, one getter each; a key changes several of them", methods=48, members=26
     ),

@@ -106,7 +106,7 @@ void SoakRun::after_step() {
         scanned_since_start_ = false;
         scan_orders_.clear();
         orders_.restart();
-        check_store();
+        check_store(stored_.check());
     }
     if (std::exchange(was_ordered_, false)) static_cast<void>(world_.take_snapshot());
     excuse_alike();
@@ -115,7 +115,8 @@ void SoakRun::after_step() {
     if (!orders_.breach().empty()) breach(Invariant::orders, orders_.breach());
     if (world_.gateway().run_state() == gateway::RunState::stopped) scan_orders_.clear();
     if (world_.board().bites() != 0) breach(Invariant::watchdog, "it has bitten");
-    if (person_.has_committed() || uploads_) watch_upload();
+    if (person_.has_committed() || stored_.is_uploading())
+        check_store(stored_.watch(person_.has_committed(), person_.uploads()));
     check_outputs();
     if (world_.now() >= next_heap_) note_heap();
 }
@@ -132,56 +133,26 @@ void SoakRun::take_executed() {
     }
 }
 
-/// For as long as the line goes on so.
 void SoakRun::excuse_alike() {
     const std::uint64_t alike = world_.line().to_motor().counters().damaged_alike +
                                 world_.line().from_motor().counters().damaged_alike;
-    const bool is_new = std::exchange(alike_, alike) != alike;
-    if (!is_new && !excuses_) return;
-    excuses_ = damage_ > 0;
-    orders_.excuse(world_.now() + kExcuse);
+    if (line_.excuses_orders(alike)) orders_.excuse(world_.now() + kExcuse);
 }
 
-/// Of the outside: what the gateway says of itself is the last of four reasons.
+void SoakRun::check_store(const std::string& wrong) {
+    if (!wrong.empty()) breach(Invariant::store, wrong);
+}
+
+/// From the observed line and board; the state that the gateway reports is the last of four reasons.
 void SoakRun::check_outputs() {
     if (world_.board().outputs() == kSafeOutputs) return;
     const auto say = [this](const char* why) {
         breach(Invariant::outputs, fmt::format("{} with outputs {:04b}", why, world_.board().outputs()));
     };
-    if (unreachable_since_ && world_.now() - *unreachable_since_ > kSafeAfter)
-        return say("no line to the motor");
+    if (line_.is_unreachable_for(kSafeAfter, world_.now())) return say("no line to the motor");
     if (!scanned_since_start_) return say("before the first scan");
     if (world_.gateway().run_state() == gateway::RunState::stopped) return say("stopped");
     if (world_.gateway().safe_reason() != gateway::SafeReason::none) return say("in the safe state");
-}
-
-std::uint32_t SoakRun::stored_crc() const {
-    const store::Header stored = world_.tables().stored();
-    return stored.length == 0 ? 0 : stored.crc;
-}
-
-void SoakRun::check_store() {
-    const std::uint32_t stored = stored_crc();
-    if (!may_be_stored_.contains(stored))
-        breach(Invariant::store, fmt::format("table {:08X} is stored, which was not uploaded last", stored));
-    if (was_stored_ && world_.tables().fell_back())
-        breach(Invariant::store, "the stored table is damaged or gone");
-    may_be_stored_ = {stored};
-}
-
-/// From the commit on it may be the new one; once the upload has ended it is known which.
-void SoakRun::watch_upload() {
-    if (person_.has_committed()) may_be_stored_.insert(uploading_);
-    if (person_.uploads()) return;
-    uploads_ = false;
-    using store::Phase;
-    const auto phase = static_cast<Phase>(world_.tables().upload_state() & 0xFF);
-    if (phase == Phase::done) {
-        was_stored_ = true;
-        ++counted_.stored;
-        may_be_stored_ = {uploading_};
-    }
-    if (phase == Phase::done || phase == Phase::failed || phase == Phase::idle) check_store();
 }
 
 void SoakRun::note_heap() {
@@ -193,7 +164,7 @@ void SoakRun::note_heap() {
 void SoakRun::cut_power() {
     if (storage_.cut_power(dice_)) ++counted_.torn;
     person_.forget();
-    uploads_ = false;
+    stored_.power_cut();
     world_.gateway(sim::action::Gateway::restart);
 }
 
@@ -209,8 +180,7 @@ std::vector<std::uint8_t> SoakRun::table(unsigned which) const {
 void SoakRun::upload(unsigned which) {
     if (person_.uploads()) return;
     const std::vector<std::uint8_t> bytes = table(which);
-    uploading_ = base::crc32(bytes);
-    uploads_ = true;
+    stored_.begin_upload(base::crc32(bytes));
     person_.upload(bytes);
 }
 
@@ -218,34 +188,22 @@ void SoakRun::set_input(unsigned index, bool level) {
     world_.set_input(index, level);
 }
 
-void SoakRun::note_line() {
-    const bool unreachable = is_cut_ || is_motor_off_;
-    if (!unreachable) unreachable_since_.reset();
-    if (unreachable && !unreachable_since_) unreachable_since_ = world_.now();
-}
-
 void SoakRun::cut_line(bool cut) {
-    const bool is_back = is_cut_ && !cut;
-    is_cut_ = cut;
-    note_line();
+    const bool is_back = line_.cut(cut, world_.now());
     world_.cut_line(cut);
     if (is_back && fault_ == Fault::order_lost && (world_.board().inputs() & 2U) != 0)
         armed_until_ = world_.now() + kForgetful;
 }
 
 void SoakRun::power_motor(bool on) {
-    const bool is_back = is_motor_off_ && on;
-    is_motor_off_ = !on;
-    note_line();
+    const bool is_back = line_.power(on, world_.now());
     world_.power_motor(on);
-    // It begins with rapid communication, where every damaged character is another command.
-    if (on && damage_ > 0) excuses_ = true;
     if (on) orders_.switched_on();
     if (is_back && fault_ == Fault::order_twice) armed_until_ = world_.now() + kForgetful;
 }
 
 void SoakRun::spoil_line(const sim::action::SpoilLine& faults) {
-    damage_ = faults.damage.value_or(damage_);
+    line_.spoil(faults.damage);
     world_.spoil_line(faults);
 }
 
@@ -352,6 +310,7 @@ void SoakRun::scanned(base::Instant, const sequencer::State& before, sequencer::
 Statistics SoakRun::statistics() const {
     Statistics all = counted_;
     all.orders = orders_.count();
+    all.stored = stored_.count();
     all.excused = orders_.excused();
     all.starts = world_.starts();
     all.answers = person_.answers();

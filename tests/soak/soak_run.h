@@ -2,15 +2,16 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "course.h"
 #include "cut_storage.h"
+#include "line_state.h"
 #include "naive_sequencer.h"
 #include "order_book.h"
 #include "person.h"
 #include "program.h"
+#include "stored_tables.h"
 
 namespace nplc::soak {
 
@@ -64,15 +65,12 @@ class SoakRun final : private sim::Stage, private gateway::Observer {
     void after_step();
     void take_executed();
     void excuse_alike();
+    void check_store(const std::string& wrong);
     void check_outputs();
-    void check_store();
-    void watch_upload();
-    void note_line();
     void note_heap();
     void cut_power();
     void upload(unsigned which);
     std::vector<std::uint8_t> table(unsigned which) const;
-    std::uint32_t stored_crc() const;
     void breach(Invariant invariant, const std::string& what);
 
     void set_input(unsigned index, bool level) override;
@@ -97,21 +95,13 @@ class SoakRun final : private sim::Stage, private gateway::Observer {
     sim::World world_;
     OrderBook orders_;
     Person person_;
+    LineState line_;
+    StoredTables stored_{world_};
 
     bool was_ordered_ = false;
     Time armed_until_{0};  ///< the fault, for the next order that is executed
-    std::optional<Time> unreachable_since_;
-    bool is_cut_ = false;
-    bool is_motor_off_ = false;
-    double damage_ = 0;     ///< share of the characters
-    bool excuses_ = false;  ///< a damage went by that no repeat shows, and the line is still bad
-    bool uploads_ = false;
-    std::uint32_t uploading_ = 0;  ///< CRC-32
     bool scanned_since_start_ = false;
     std::uint64_t starts_ = 0;
-    std::uint64_t alike_ = 0;
-    std::set<std::uint32_t> may_be_stored_{0};  ///< CRC-32 of tables; 0: none
-    bool was_stored_ = false;
     Time next_heap_{std::chrono::minutes{10}};
     Time half_{0};
     Statistics counted_;
