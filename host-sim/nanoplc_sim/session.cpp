@@ -18,9 +18,6 @@ namespace nplc::sim {
 namespace {
 
 constexpr Time kDefaultLength = std::chrono::seconds{10};
-/// A connected motor has answered by then.
-constexpr Time kLongestStart = std::chrono::seconds{1};
-
 WorldOptions world_options(const RunOptions& options, const Names& names, const Scenario& scenario,
                            ports::Storage* storage) {
     WorldOptions world;
@@ -46,42 +43,6 @@ WorldOptions world_options(const RunOptions& options, const Names& names, const 
     world.user_submits = options.mactalk.has_value();
     if (options.keep_motor) world.gateway.on_start = gateway::OnStart::keep;
     return world;
-}
-
-std::string_view in_words(gateway::SafeReason reason) {
-    switch (reason) {
-        case gateway::SafeReason::none:
-            return "outputs follow the sequence";
-        case gateway::SafeReason::not_started:
-            return "outputs safe: not started";
-        case gateway::SafeReason::stop_command:
-            return "outputs safe: stop command";
-        case gateway::SafeReason::link_down:
-            return "outputs safe: link to the motor down";
-        case gateway::SafeReason::motor_stuck:
-            return "outputs safe: the motor does not finish its orders";
-        case gateway::SafeReason::bad_table:
-            return "outputs safe: bad table";
-        case gateway::SafeReason::watchdog:
-            return "outputs safe: watchdog reset";
-        case gateway::SafeReason::enable_lost:
-            return "outputs safe: enable lost";
-        case gateway::SafeReason::bad_set_points:
-            return "outputs safe: the stored set-points are damaged";
-        case gateway::SafeReason::bad_settings:
-            return "outputs safe: the stored settings are damaged";
-        case gateway::SafeReason::bad_run_mark:
-            return "outputs safe: the mark of the last run is damaged";
-        case gateway::SafeReason::safe_command:
-            return "outputs safe: the user's command";
-        case gateway::SafeReason::no_lines:
-        case gateway::SafeReason::no_store:
-        case gateway::SafeReason::no_port:
-            return "outputs safe: the board lacks something";
-        case gateway::SafeReason::no_proof:
-            return "outputs safe: the table has no certificate";
-    }
-    return "";
 }
 
 /// Identifies the table of a trace; not by a file name, which could contain anything.
@@ -240,7 +201,7 @@ void Session::show() {
     do {
         last_ = world_.take_snapshot();
         follow_orders();
-        note_changes();
+        watch_.look();
         acted = runner_.observe(last_);
         if (!options_.quiet) timeline_.observe(last_);
         if (csv_) csv_->observe(last_);
@@ -257,32 +218,6 @@ void Session::follow_orders() {
         for (const Order& order : world_.take_executed()) auditor_.executed(order);
     }
     auditor_.settle(world_.on_their_way());
-}
-
-void Session::note_changes() {
-    if (const auto reason = world_.gateway().safe_reason(); reason != reason_) {
-        reason_ = reason;
-        timeline_.remark(std::string(in_words(reason)));
-    }
-    if (const std::string note = world_.motor_note(); note != motor_note_) {
-        motor_note_ = note;
-        if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
-    }
-    if (!said_that_it_waits_ && waits_for_motor()) {
-        said_that_it_waits_ = true;
-        timeline_.alarm(
-            "the gateway waits for the motor, which does not answer: no step begins before it does");
-    }
-    if (const auto bites = world_.board().bites(); bites != bites_) {
-        bites_ = bites;
-        timeline_.alarm("the watchdog resets the gateway");
-    }
-}
-
-bool Session::waits_for_motor() const {
-    const gateway::Gateway& gateway = world_.gateway();
-    return now() >= kLongestStart && gateway.run_state() == gateway::RunState::waiting_for_motor &&
-           gateway.scans() == 0;
 }
 
 void Session::press(unsigned input) {
@@ -309,7 +244,7 @@ std::string Session::status_line() const {
 
 bool Session::finish() {
     runner_.finish(last_);
-    note_changes();
+    watch_.look();
     if (!options_.quiet) timeline_.observe(last_);
     if (csv_) {
         csv_->finish(last_);
@@ -360,7 +295,7 @@ void Session::summary() {
         "resets",
         world_.gateway().scans(), driver.counters().orders, driver.counters().discarded,
         driver.counters().resent, driver.counters().link_losses, world_.board().bites()));
-    if (waits_for_motor())
+    if (watch_.waits_for_motor())
         say("the sequence has not begun: the gateway waits for the motor, which does not answer");
     lines_in_words();
     if (csv_) say(fmt::format("trace: {}", *options_.csv));

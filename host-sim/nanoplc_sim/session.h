@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "board_watch.h"
 #include "order_audit.h"
 #include "program.h"
 #include "run_command.h"
@@ -64,8 +65,6 @@ class Session {
     std::string motor_in_words() const;
     void lines_in_words();
     void show();
-    void note_changes();
-    bool waits_for_motor() const;
     void leave_symbols() const;
     void summary();
     void follow_orders();
@@ -81,6 +80,7 @@ class Session {
     std::size_t columns_;
     Timeline timeline_;
     World world_;
+    BoardWatch watch_{world_, timeline_};
     ScenarioRunner runner_;
     OrderAuditor auditor_;
     std::optional<CsvTrace> csv_;
@@ -90,10 +90,6 @@ class Session {
     Snapshot last_;
     std::vector<std::string> remarks_;  ///< remarks of the time below
     Time remarked_{0};
-    gateway::SafeReason reason_ = gateway::SafeReason::not_started;
-    std::string motor_note_;
-    std::uint32_t bites_ = 0;
-    bool said_that_it_waits_ = false;
     bool ended_ = false;
     std::function<void()> after_step_;
 };

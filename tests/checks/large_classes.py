@@ -81,9 +81,6 @@ CLASSES = {
     "host-sim/midi_module/include/sim/midi_motion.h:MidiMotion": Large(
         "profile, encoder and shaft of one drive, which correct each other at every tick", methods=44, members=21
     ),
-    "host-sim/nanoplc_sim/session.h:Session": Large(
-        "owns the world, the scenario and the outputs of a run, each of which refers to those before it", members=22
-    ),
     "tools/macreg/ui/include/macreg/ui_model.h:UiModel": Large(
         "all that a screen shows, one getter each; a key changes several of them", methods=48, members=26
     ),
