@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random programs: what LANGUAGE.md says that they do, against what the compiled table does in the engine.
+"""Random programs: their behaviour by LANGUAGE.md, against what the compiled table does in the engine.
 
 usage: differential_test.py SEQC NANOPLC_SIM LANGUAGE.md REGISTERS_MAC50-141.md [PROGRAMS [SEED]]
 """
@@ -30,7 +30,7 @@ class Duel:
         self.bytes = self.document.command_bytes()
 
     def fight(self, seed):
-        """True if the program compiled, and did what the reference says."""
+        """True if the program compiled, and behaved as the reference."""
         rng = random.Random(seed)
         text = programs.program(rng)
         try:
@@ -60,7 +60,7 @@ class Duel:
             # What a choice does that sets the counter twice (E061) is open, and so whether another does the same, or it under ERROR.
             doubtful = {"E070", "E082"} if program.faults & {"E061", "E073"} else set()
             if "E073" in program.faults & errors:
-                doubtful.add("E061")  # both say that the timer is set twice
+                doubtful.add("E061")  # both report that the timer is set twice
             if program.faults - doubtful != errors - doubtful:
                 raise Difference(f"the reference refuses with {program.faults}, the compiler with {errors}")
         elif bool(errors) == is_possible:
@@ -72,7 +72,7 @@ class Duel:
         return True
 
     def run(self, program, course, lost):
-        """`lost`: steps to which none leads, says the compiler."""
+        """`lost`: unreachable steps, by the compiler."""
         machine, table, steps, step = machine_for(program), self.tools.table(), self.tools.steps(), 0
         for number, (row, (image, ms)) in enumerate(zip(self.tools.scan(course), course), 1):
             order = sent_in_order(table, step, machine.case(image))

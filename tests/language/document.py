@@ -17,7 +17,7 @@ def read(path):
 
 
 class Example:
-    """A program with what the compiler must say about it, and the scans that are printed below it."""
+    """A program with the messages that the compiler must give, and the scans that are printed below it."""
 
     def __init__(self, text, program, first_line):
         self.text, self.program, self.first_line = text, program, first_line

@@ -1,6 +1,6 @@
 """The grammar of LANGUAGE.md: read, checked for holes, turned into a parser and a generator of random programs.
 
-Nothing here knows the language; it all comes from the document.
+Nothing here is specific to the language; all of it is read from the document.
 """
 
 import re
@@ -227,7 +227,7 @@ class Parser:
         return places
 
     def tree(self, rule, at, end):
-        """Nodes and tokens of `rule` between two places of which `ends` knows."""
+        """Nodes and tokens of `rule` between two places that are in `ends`."""
         kind = rule[0]
         if kind == "word" or (kind == "ref" and rule[1] in self.grammar.kinds):
             return [self.tokens[at]]

@@ -106,7 +106,7 @@ class Maker:
 
 
 def keeps_limits(kind, text):
-    """What the document says beside the grammar: 32 bits; the units of a time from the largest down, each once."""
+    """The document's rules beside the grammar: 32 bits; the units of a time from the largest down, each once."""
     if kind == "based":
         return based(text) < 2 ** 32
     if kind == "time":

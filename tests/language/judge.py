@@ -119,7 +119,7 @@ class Judge:
 
 
 class Helper:
-    """A step of the compiler's: does what a branch says in the scan after."""
+    """A step added by the compiler: carries out a branch in the next scan."""
 
     def __init__(self, action, on_error):
         self.action, self.on_error, self.number, self.outputs = action, on_error, None, 0

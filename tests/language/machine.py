@@ -1,4 +1,4 @@
-"""Executes a program, scan after scan, as LANGUAGE.md says."""
+"""Executes a program, scan after scan, by LANGUAGE.md."""
 
 from action import Action
 from judge import Helper

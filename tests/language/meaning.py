@@ -14,7 +14,7 @@ from values import Reckoner, Value, based
 
 
 class Refused(Exception):
-    """The program uses something that this interpreter does not know."""
+    """The program uses something that this interpreter does not support."""
 
 
 def is_switch(action):

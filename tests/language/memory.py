@@ -1,4 +1,4 @@
-"""What a step knows of the scans before, as LANGUAGE.md says: edges, times of FOR, blinking, outputs that are set.
+"""A step's memory of earlier scans, by LANGUAGE.md: edges, times of FOR, blinking, outputs that are set.
 
 A state is the set of armed edges with, in the bit above them, whether the time of FOR runs.
 """

@@ -40,7 +40,7 @@ class Tools:
             return file.read()
 
     def steps(self):
-        """Number -> what F.sym says of the step."""
+        """Number -> the step's entry in F.sym."""
         with open(self.path("p.sym"), encoding="utf-8") as file:
             return {step["number"]: step for step in json.load(file)["steps"]}
 

@@ -295,7 +295,7 @@ class Gateway(Case):
         self.nanoctl("upload", self.table, "--run")
         self.attach()
         self.debugger.request("configurationDone")
-        # Go is off, so A has gone to the copy that knows it.
+        # Go is off, so A has gone to the copy for that case.
         told = self.state(lambda body: body["name"].startswith("A_"))
         self.assertEqual([(c["text"], c["holds"]) for c in told["conditions"]], [("R_TRIG(Go)", False)])
         self.assertEqual(told["conditions"][0]["parts"], [{"text": "Go", "holds": False}])

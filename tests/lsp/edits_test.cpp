@@ -8,7 +8,7 @@
 
 #include "lsp/server.h"
 
-/// A server's view after edits is that after opening the text anew.
+/// A server's view after edits is that after opening the text again.
 namespace nplc::seqc::lsp {
 namespace {
 

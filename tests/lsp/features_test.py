@@ -185,7 +185,7 @@ class Writing(Case):
         self.assertNotIn("Grip", tests)
         self.assertEqual(self.labels(self.uri, place_of(self.text, "OUT Lamp", 4)), ["Grip", "Lamp"])
         behind = self.labels(self.open(self.text.replace("OUT Lamp;", "OUT Lamp ;", 1)), place_of(self.text, "OUT Lamp;", 9))
-        self.assertEqual(behind, ["WHEN", "BLINKING"])  # what parser and reference know; FLASH is only answered
+        self.assertEqual(behind, ["WHEN", "BLINKING"])  # what parser and reference have; FLASH exists only in the answers
         self.assertEqual(self.labels(self.uri, place_of(self.text, "60 mm", 3)), ["counts", "rev", "mm"])
         self.assertNotIn("STEP", self.labels(self.uri, place_of(self.text, "TIMER := T#500ms")))
         self.assertEqual(self.labels(self.uri, place_of(self.text, "gripper closed")), [])  # a comment

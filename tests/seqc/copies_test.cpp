@@ -1,4 +1,4 @@
-// Copies of steps: their names, their numbers, what else knows of them.
+// Copies of steps: their names, their numbers, the other places that show them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

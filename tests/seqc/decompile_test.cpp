@@ -271,7 +271,7 @@ TEST(Decompile, ValuesInUnits) {
     EXPECT_TRUE(has(said({0x51, 0x41, 0xFF, 0, 0}, mac140), "L1 := -0.746;\n"));
     // 013Ch is 316: 1.234 x 256 = 315.904 rounds to it, 1.23 x 256 = 314.88 does not
     EXPECT_TRUE(has(said({0x51, 0x3C, 0x01, 0, 0}, mac140), "L1 := 1.234;\n"));
-    // 0001h: 0.0039 x 256 = 0.9984; 0.004 x 256 = 1.024 is 2.4 % off, which W002 would tell
+    // 0001h: 0.0039 x 256 = 0.9984; 0.004 x 256 = 1.024 is 2.4 % off, which W002 would report
     EXPECT_TRUE(has(said({0x51, 0x01, 0x00, 0, 0}, mac140), "L1 := 0.0039;\n"));
     // 100 rpm is 277 on a MAC800 (004, register 5)
     EXPECT_TRUE(has(said({0xC1, 0x15, 0x01, 0, 0}, mac800), "V1 := 277; // 99.98 rpm"));

@@ -41,7 +41,7 @@ std::vector<Program> programs() {
     return result;
 }
 
-/// All but blanks, in small letters; comments as they are but for blanks at line ends. Knows nothing of the
+/// All but blanks, in small letters; comments as they are but for blanks at line ends. Independent of the
 /// lexer.
 std::string squeezed(const std::string& text) {
     std::string result;
@@ -123,7 +123,7 @@ std::string scrambled(const Program& program, test::Random& random) {
     std::string text = random_gap(false, density, random);
     for (std::size_t i = 0; i < program.tokens.size(); ++i) {
         const bool needed = i > 0 && is_word(program.tokens[i]) && is_word(program.tokens[i - 1]);
-        // The compiler knows no unit with a comment inside.
+        // The compiler accepts no unit with a comment inside.
         const bool in_unit = program.tokens[i].text == "/" || (i > 0 && program.tokens[i - 1].text == "/");
         text += in_unit ? random_blanks(random) : random_gap(needed, density, random);
         text += random_case(std::string(program.tokens[i].text), random);
@@ -161,7 +161,7 @@ TEST(FormatGenerated, TheBytesAreTheSameBeforeAndAfter) {
     EXPECT_GE(compiled, 3);
 }
 
-/// White space that says nothing: how far lines are indented, the length of a gap, blanks at line ends, the
+/// White space without a meaning: how far lines are indented, the length of a gap, blanks at line ends, the
 /// kind of line ends, how many blank lines stand in a row.
 std::string other_white_space(const Program& program, test::Random& random) {
     std::vector<Token> items = program.tokens;
@@ -190,7 +190,7 @@ std::string other_white_space(const Program& program, test::Random& random) {
     return text + (random() % 2 == 0 ? "" : line_end + line_end + "\t");
 }
 
-/// A comment before ELSIF and one that goes on below another say something with their columns.
+/// A comment before ELSIF and one that goes on below another have a meaning by their columns.
 bool has_telling_columns(const Program& program) {
     return program.name == "comments" || program.name == "trailing_comments";
 }

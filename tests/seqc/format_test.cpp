@@ -29,7 +29,7 @@ std::string around(const std::string& lines) {
     return "PROGRAM P\n\nSTEP S:\n    OWN ERROR;\n" + lines + "END_STEP\n\nEND_PROGRAM\n";
 }
 
-/// Without asking the parser, for what only the layout knows.
+/// Without the parser, for what depends on the layout only.
 std::string laid_out(const std::string& source) {
     Report report;
     std::vector<Token> comments;

@@ -105,7 +105,7 @@ TEST(GraphModel, ATableHasTheNamesAndUnitsOfItsSymbols) {
     const GraphModel model = graph_model_of(line.table, &line.symbols, "file");
     EXPECT_EQ(model.boxes[0].entry, (Texts{"Home_Place := 0 mm", "Far := 80 mm", "Soft := 20000 rpm/s"}));
     EXPECT_EQ(model.boxes[1].entry, Texts{"ENTRY POSITION(Far)"});
-    // What the note says is left out; the only way into a step says what its ENTRY does.
+    // The content of the note is left out; the only way into a step shows the actions of its ENTRY.
     EXPECT_EQ(texts_of(model.boxes[2]), Texts{"TIMER.Q / POSITION(Home_Place) -> 3"});
     ASSERT_EQ(model.notes.size(), 2U);
     EXPECT_EQ(text_of(model.notes[1].way), "Stop -> 4");

@@ -106,7 +106,7 @@ std::string moves_in(const std::string& source) {
     return test::codes_in_frame(result);
 }
 
-/// What the compiler says of orders in one branch, and of those that the ENTRY of its target adds.
+/// The compiler's messages on orders in one branch, and of those that the ENTRY of its target adds.
 std::string moves(const std::string& branch, const std::string& entry = {}) {
     return moves_in(
         "PROGRAM P MOTOR MAC140;\nVAR_MOTOR near AT P1 := 9; far AT P2 := 8; fast AT V1 := 100; slow AT V2 "

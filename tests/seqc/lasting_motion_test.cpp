@@ -147,7 +147,7 @@ TEST(LastingMotion, ASelectionThatChangesTheModeStartsTowardsAnOldTarget) {
     EXPECT_FALSE(is_refused("POSITION(Far)", "POSITION(Fast)"));
 }
 
-/// What a step of which nothing leads on may say of itself.
+/// What a step without a way out may declare.
 TEST(Allowed, AStepThatIsNeverLeft) {
     const auto program = [](const std::string& says) {
         return "PROGRAM P\nMOTOR MAC140;\nVAR_MOTOR Far AT P1 := 4 rev; Fast AT V1 := 600 rpm; END_VAR\n"

@@ -1,5 +1,5 @@
-// The claim: a condition on up to five variables takes as few terms as any table, by a search of its own that
-// knows nothing of products and primes: tables from the last term back, and cases cut into cubes.
+// The claim: a condition on up to five variables takes as few terms as any table, by a separate search
+// without products and primes: tables from the last term back, and cases cut into cubes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

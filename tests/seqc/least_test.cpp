@@ -16,7 +16,7 @@ constexpr int kOwnStep = 1;
 constexpr unsigned kLeastCases = 8;  // A, B, and C or the timer at zero
 constexpr unsigned kSeeds = 120;
 
-/// What a case wants; a preset of 0: none. Register values are orders with a "=" in them.
+/// What a case requires; a preset of 0: none. Register values are orders with a "=" in them.
 struct Wanted {
     int next = kOwnStep;
     int outputs = 0;  // with the counter's two bits

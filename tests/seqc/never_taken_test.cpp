@@ -121,7 +121,7 @@ TEST(NeverTaken, IsSaidOfTheBranchesThatNoCourseTakesAndOfNoOthers) {
                 ASSERT_FALSE(is_entered);
                 ++told;
             }
-            // Which states of its memory a step comes to, only V001 tells.
+            // Only V001 reports which states of its memory a step comes to.
             if (!program.remembers) {
                 ASSERT_EQ(never, !is_entered);
             }

@@ -1,4 +1,4 @@
-// Random programs against what their words say, worked out case by case: what a table can do is compiled and
+// Random programs against their meaning, evaluated case by case: what a table can do is compiled and
 // does just that, what is refused no table can do.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What single terms and commands say, by 001 §5.2.1.4 and §6.1.5 - §6.1.8.
+// The meaning of single terms and commands, by 001 §5.2.1.4 and §6.1.5 - §6.1.8.
 #include <gtest/gtest.h>
 
 #include <cstdint>

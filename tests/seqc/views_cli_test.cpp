@@ -54,7 +54,7 @@ TEST_F(ViewsCli, Diff) {
     EXPECT_EQ(run("diff a.bin a.seq"), 0);
     EXPECT_EQ(run("diff a.seq b.seq --json"), 1);
     EXPECT_TRUE(read("out").starts_with("{"));
-    EXPECT_EQ(run("diff a.seq bad.seq"), 2);  // 1 would say "different"
+    EXPECT_EQ(run("diff a.seq bad.seq"), 2);  // 1 would mean "different"
     EXPECT_EQ(run("diff bad.seq a.seq"), 2);
     EXPECT_TRUE(failed_in_one_line("diff a.seq missing.bin", "missing.bin"));
     EXPECT_TRUE(failed_in_one_line("diff a.seq", "B"));

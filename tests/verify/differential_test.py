@@ -115,7 +115,7 @@ def check_any(case, table, properties, report, explorer):
     unreachable = {s for s in with_terms if s not in begun}
     if explorer.move_ms is None:
         assert set(report["unreachable"]) == unreachable, report["unreachable"]
-    else:  # told without times
+    else:  # reported without times
         assert set(report["unreachable"]) <= unreachable, report["unreachable"]
     results = {r["name"]: r for r in report["results"] if "code" not in r}
     for number, prop in enumerate(properties):

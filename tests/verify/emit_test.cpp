@@ -89,7 +89,7 @@ TEST(Emit, MovesAndAssumptionsArePartOfTheModel) {
     EXPECT_TRUE(contains(
         clauses, "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000001 #b0 #b0 #b1 #b0000 #b00 #b0 #b0))"));
     // To a place, INPOS seen, no ERROR, orders 1, which are none: in its place. With ERROR instead: for an
-    // unknown time. Orders 0 begin the move anew, whatever there was.
+    // unknown time. Orders 0 begin the move again, in any state.
     EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b1 #b0 #b1 #b0100 #b0))"));
     EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b0 #b1 #b1 #b0011 #b0))"));
     EXPECT_TRUE(contains(clauses, "(rule (Turn #b0001 #b0 #b0 #b1 #b0001 #b1))"));

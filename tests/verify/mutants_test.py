@@ -227,7 +227,7 @@ def suggested(courses):
 
 
 def seen_states(courses):
-    """Each state of the courses, as a property that says it can be reached."""
+    """Each state of the courses, as a property that it can be reached."""
     states = {(s["step"], s["outputs"], s["counter"] == 0) for course in courses for s in course}
     return [Property(f"Seen_{step}_{outputs}_{int(zero)}", f"STEP = {step} AND " +
                      " AND ".join(("" if outputs >> i & 1 else "NOT ") + f"OUT{i}" for i in range(4)) +

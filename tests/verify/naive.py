@@ -189,7 +189,7 @@ class Naive:
         return min((d for (image, state), d in self.scans.items() if wanted(image, state)), default=None)
 
     def broken_after(self, begin, step):
-        """Least number of scans after which `step` says that they break what it watches; None if none do. It takes what
+        """Least number of scans after which `step` reports a violation; None if none do. It takes what
         is remembered, the state before a scan, its image and the state after it, and answers (broken, remembered)."""
         queue, seen = deque([(self.off, begin, 0)]), {(self.off, begin)}
         while queue:

@@ -5,7 +5,7 @@ import subprocess
 
 
 def expanded(course):
-    """A scan for each time that the document says it is made."""
+    """A scan for each repetition in the document."""
     return [{**scan, "times": 1} for scan in course for _ in range(scan.get("times", 1))]
 
 

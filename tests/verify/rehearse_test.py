@@ -1,4 +1,4 @@
-"""Rehearsals through the whole gateway with a virtual motor: all that they come to, seqc verify knows under --assume driver.
+"""Rehearsals through the whole gateway with a virtual motor: seqc verify reaches all of their states under --assume driver.
 
 usage: rehearse_test.py SEQC NANOPLC_SIM REHEARSALS TABLES SEED PROGRAM...
 

@@ -95,7 +95,7 @@ class Courses(programs.Programs):
         assert picture.startswith("<svg") and ">step<" in picture and "P_IST" not in picture
 
     def check_alone(self, program):
-        """A seqc without nanoplc-sim says that it played nothing; the verdict stays."""
+        """A seqc without nanoplc-sim reports that it played nothing; the verdict stays."""
         alone = os.path.join(self.folder, "alone")
         os.mkdir(alone)
         seqc = shutil.copy(self.seqc, alone)

@@ -1,4 +1,4 @@
-"""What seqc verify tells of a course, and the scenario that it writes: machines whose motor needs longer than the course.
+"""The report of seqc verify on a course, and the scenario that it writes: machines whose motor needs longer than the course.
 
 usage: stories_test.py SEQC NANOPLC_SIM FOLDER_OF_STORIES
 """

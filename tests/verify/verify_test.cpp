@@ -101,7 +101,7 @@ std::uint32_t ms_before_the_last(const Result& result) {
 }
 
 TEST(Verify, AForgottenPresetIsFoundBehindAWait) {
-    // Step 1 presets 1500 ms and waits for them, step 2 waits for the timer that nobody preset again.
+    // Step 1 presets 1500 ms and waits for them, step 2 waits for the timer that was not preset again.
     Bench forgot{{kAny, 1, 1, 1, 0, 1500}, {kTimerZero | 1, 0, 0, 2, 1}, {kTimerZero | 2, 0, 0, 0, 0}};
     const Result result = forgot.finding("V007", 2);
     EXPECT_EQ(result.verdict, Verdict::broken);
