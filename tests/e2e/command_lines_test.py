@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the programs say of their command lines: help, guesses, completion, and that empty values are wrong usage; and how
+"""The programs' output on their command lines: help, guesses, completion, and that empty values are wrong usage; and how
 they treat what their output leads to.
 
 usage: command_lines_test.py BIN_FOLDER PROGRAM.seq

@@ -1,4 +1,4 @@
-"""A store of nanoplc as one with which somebody has commanded run (firmware/boards/linux/README.md)."""
+"""A store of nanoplc in which the first run has been commanded (firmware/boards/linux/README.md)."""
 
 import os
 import zlib

@@ -28,7 +28,7 @@ def nanofleet(*arguments, exit_code=0, **options):
 
 
 class Plant:
-    """Whoever may publish, and hears what is reported."""
+    """An MQTT client that may publish, and receives the reports."""
 
     def __init__(self, port):
         self.reports = {}
@@ -138,7 +138,7 @@ class FleetCase(service_case.ServiceCase):
         return service
 
     def what_runs(self):
-        """SHA-256 of what really runs, from the user's port: its bytes, not what MQTT says of them."""
+        """SHA-256 of what really runs, from the user's port: its bytes, not the hash that MQTT reports."""
         file = self.path("downloaded.bin")
         self.ctl("download", "--force", "-o", file)
         with open(file, "rb") as table:

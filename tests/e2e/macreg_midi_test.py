@@ -201,7 +201,7 @@ class Motion(Case):
         self.assertLess(first, 1000000)
 
     def signalled(self, number, *motion):
-        """What it says at its end; the signal comes twice, when it shows that something moves."""
+        """Its output at the end; the signal is sent twice, once it shows a motion."""
         terminal, others = pty.openpty()
         process = subprocess.Popen(self.command("midi", *motion), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=others)
         self.running.append(process)
@@ -374,7 +374,7 @@ class SameAddress(Case):
         findings = self.reg("why")["findings"]
         self.assertEqual([one["code"] for one in findings], ["same_address"])
         self.assertIn("address set", findings[0]["remedy"])
-        self.patience = "100"  # of each address that nobody has
+        self.patience = "100"  # of each unused address
         self.assertEqual([(one["address"], one.get("several")) for one in self.reg("find", "--this-speed")["modules"]],
                          [(0, True), (3, None)])
         self.patience = "500"
@@ -407,7 +407,7 @@ class Service(Case):
         self.modules("--speed", "20")
         self.told(2, "nobody is there to be asked", "address", "set", "7")
         self.assertEqual(self.reg("--yes", "address", "set", "7")["address"], 7)
-        self.patience = "100"  # of each address that nobody has
+        self.patience = "100"  # of each unused address
         found = self.reg("find")["modules"]
         self.patience = "2000"
         self.assertEqual([one["address"] for one in found], [7])

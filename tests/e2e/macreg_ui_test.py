@@ -44,9 +44,9 @@ class Case(ProgramCase):
         return result.stdout
 
     def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color", keys=None, patience=20_000):
-        """The screen within a shell that tells how it ended and how it found the terminal. A motor that is there answers some
-        day; how long a slow machine takes is not what is tested. A recording first asks whether a gateway is there, and
-        nobody answers: that takes two patiences."""
+        """The screen within a shell that prints the exit status and the terminal's settings. A connected motor answers at
+        some time; how long a slow machine takes is not what is tested. A recording first asks whether a gateway is there, and
+        none answers: that takes twice `patience`."""
         script = (f"stty -g > {self.path('before')}; LC_ALL={locale} TERM={term} {MACREG} --port {self.path('m')} "
                   f"--patience {patience} ui; echo ended with $?; stty -g > {self.path('after')}; echo all done; sleep 600")
         self.tmux("new-session", "-d", "-x", str(columns), "-y", str(rows), "sh -c " + shlex.quote(script))

@@ -73,7 +73,7 @@ class Scenarios(Case):
 
 
 class Bench(Case):
-    """What happens to the motor is said at a port of its own, while a client talks to the motor."""
+    """Events of the motor are reported at a separate port, while a client talks to the motor."""
 
     def bench(self, *arguments):
         self.start("--address", "8", "--mactalk", "pty:" + self.path("tty"), "--control", "unix:" + self.path("bench"), *arguments)

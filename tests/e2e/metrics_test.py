@@ -63,7 +63,7 @@ class Simulated(program_case.ProgramCase):
         self.assertEqual(values["nanoplc_axis_up", (axis,)], 1)
         self.assertEqual(values[position], 0)
         self.assertEqual(values["nanoplc_events_total", (axis, ("event", "started"))], 1)
-        # A MAC140 tells no temperature: no line, and no 0.
+        # A MAC140 does not report a temperature: no line, and no 0.
         self.assertNotIn("nanoplc_motor_temperature_celsius", {name for name, _ in values})
 
     def test_set_points_are_gauges(self):

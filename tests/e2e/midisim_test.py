@@ -116,7 +116,7 @@ class Line(Case):
         self.assertEqual(self.value(client, 2, 0x20), 3000)
 
     def awake(self, client):
-        """Asks until it is heard again, and answers what the first whole answer was."""
+        """Repeats the request until it is answered; returns the first complete answer."""
         end = time.monotonic() + LONG
         answer = b""
         while len(answer) < 21 and time.monotonic() < end:
@@ -140,7 +140,7 @@ class Line(Case):
 
 class Bench(Case):
     def test_what_happens_to_a_module_is_said_while_a_client_talks_to_it(self):
-        """Query 27h: status; 003: the security input holds the module in reset, so nobody answers."""
+        """Query 27h: status; 003: the security input holds the module in reset, so there is no answer."""
         client = self.client("--address", "1", "--control", "unix:" + self.path("bench"))
         bench = self.kept(device_case.Socket(socket.AF_UNIX, self.path("bench")))
         self.assertEqual(self.said(bench, "motor security on"), "ok")

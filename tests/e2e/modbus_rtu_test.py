@@ -45,7 +45,7 @@ class Simulated(program_case.ProgramCase):
         return port
 
     def test_pymodbus_operates_it(self):
-        master = ModbusSerialClient(self.serve(), baudrate=19200, timeout=10)  # a pseudo-terminal knows no parity
+        master = ModbusSerialClient(self.serve(), baudrate=19200, timeout=10)  # a pseudo-terminal has no parity
         self.assertTrue(master.connect())
         self.addCleanup(master.close)
         until(lambda: master.read_discrete_inputs(RUNNING, 1, slave=1).bits[0], "running")
@@ -106,7 +106,7 @@ class OnALine(service_case.ServiceCase):
     def test_one_slave_among_others(self):
         service = self.begin(axes=2)
         until(lambda: self.state(RUNNING) and self.state(RUNNING, 11), "running")
-        # A neighbour is asked and answers, one is silent, one answers in a function that we do not know; none of it is for us.
+        # A neighbour is asked and answers, one is silent, one answers with an unknown function; none of these is for this server.
         self.send(frame(9, 3, 0, 0, 0, 2) + frame(9, 3, 4, 1, 2, 3, 4) + frame(12, 4, 0, 0, 0, 1) + frame(13, 0x84, 2))
         self.assertTrue(self.state(RUNNING))
         self.assertTrue(self.state(RUNNING, 11))
@@ -122,7 +122,7 @@ class OnALine(service_case.ServiceCase):
         self.send(frame(0, 5, 0, 2, 0xFF, 0))  # coil make_safe
         until(lambda: self.state(IS_SAFE) and self.state(IS_SAFE, 11), "safe")
         self.send(frame(0, 16, 0, 0, 0, 2, 4, 0, 1, 0, 0) + frame(0, 16, 0, 0, 0, 2, 4, 0, 1, 0, 1))
-        self.assertEqual(self.hear(1, patience=0), b"")  # nobody answers a broadcast
+        self.assertEqual(self.hear(1, patience=0), b"")  # a broadcast is not answered
         self.assertTrue(self.state(IS_SAFE))
 
     def test_half_frames_and_damage(self):
@@ -140,7 +140,7 @@ class OnALine(service_case.ServiceCase):
         self.begin(axes=2)
         until(lambda: self.state(RUNNING) and self.state(RUNNING, 11), "running")
         stop, read = frame(10, 5, 0, 1, 0xFF, 0), frame(10, 4, 0, 1, 0, 1)
-        # Noise, a half frame, a neighbour's frame whose length its function does not tell; another request, also one for the other axis.
+        # Noise, a half frame, a neighbour's frame of unknown length; another request, also one for the other axis.
         for burst in (b"\x00" + stop, read[:5] + stop, frame(9, 0x2B, 0x0E, 1, 0) + stop, stop + read, stop + frame(11, 4, 0, 1, 0, 1),
                       b"\x00" + frame(0, 5, 0, 1, 0xFF, 0), frame(0, 16, 0, 0, 0, 2, 4, 0, 2, 0, 7)):
             self.send(burst)

@@ -163,7 +163,7 @@ class Simulated(program_case.ProgramCase):
         self.assertEqual(master.order(TAKE_SET_POINTS, 3), 4)  # none was written: bad_value
         self.assertEqual(master.write(7, 5).exception_code, NO_ADDRESS)
         self.assertEqual(master.write(6, 5).exception_code, NO_ADDRESS)
-        # What is wanted already stores nothing anew; in one request with its command, negative numbers too.
+        # A value that is set already is not stored again; in one request with its command, negative numbers too.
         changes = master.long(206)
         self.assertFalse(master.write(COMMAND, TAKE_SET_POINTS, 4, 0, 0, 0, 0, 0, 1234).isError())
         self.assertEqual((master.words(DONE_NUMBER, 2), master.long(206)), ([4, 0], changes))
@@ -193,7 +193,7 @@ class Simulated(program_case.ProgramCase):
         severity, *text = master.words(WHY + 1, 99)
         self.assertEqual(severity, 0)
         self.assertIn(b"safe state: stop command", struct.pack(">98H", *text))
-        # What the motor itself tells goes before: its load factor is 0.
+        # A value reported by the motor has precedence: its load factor is 0.
         self.assertFalse(master.write(1000 + 2 * 13, 0, 0).isError())  # KVOUT
         until(lambda: master.words(WHY) == [LOAD_FACTOR_ZERO], "KVOUT")
 
@@ -237,7 +237,7 @@ class Simulated(program_case.ProgramCase):
 
     def test_what_is_not_known_is_an_exception(self):
         master = self.master()
-        self.assertEqual(master.inputs(140).exception_code, NOT_KNOWN)  # a MAC140 tells no temperature
+        self.assertEqual(master.inputs(140).exception_code, NOT_KNOWN)  # a MAC140 does not report a temperature
         self.assertEqual(master.inputs(60).exception_code, NO_ADDRESS)
         self.assertEqual(master.inputs(44, 2).exception_code, NO_ADDRESS)
         self.assertEqual(master.holding(1001, 2).exception_code, NO_ADDRESS)
@@ -263,7 +263,7 @@ class Simulated(program_case.ProgramCase):
         until(lambda: not other.write(FORCE_INPUTS, 0x2020).isError(), "the seat")
 
     def test_every_address_is_answered(self):
-        """All 65,536 of each kind but the motor's window, one by one; what is there is what the map says."""
+        """All 65,536 of each kind but the motor's window, one by one; those that exist are those of the map."""
         master = self.master()
         window = range(1000, 1512)
         for function, highest in ((1, 7), (2, 15), (3, 5), (4, 999)):

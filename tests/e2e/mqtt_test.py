@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""MQTT with Sparkplug B: a real broker (mosquitto), a host with a client (paho) and a decoder of its own.
+"""MQTT with Sparkplug B: a real broker (mosquitto), a host with a client (paho) and a separate decoder.
 
 usage: mqtt_test.py NANOPLC_SIM NANOPLC MACSIM NANOCTL SEQC SHUTTLE MENDING EXAMPLES [TEST ...]
 """
@@ -27,7 +27,7 @@ GOOD = 192
 
 
 class View:
-    """What a host knows: births give names to aliases, data brings values; the order is held against seq."""
+    """The state that a host has: births give names to aliases, data brings values; the order is held against seq."""
 
     def __init__(self):
         self.names = {}
@@ -92,7 +92,7 @@ class Simulated(program_case.ProgramCase, Case):
         self.assertEqual(position.description, "P_IST")
         aliases = [metric.alias for metric in born.metrics]
         self.assertEqual(len(set(aliases)), len(aliases))
-        # A MAC140 tells no temperature.
+        # A MAC140 does not report a temperature.
         self.assertTrue(born.named("temperature").null)
         self.assertNotEqual(born.named("temperature").properties["Quality"], GOOD)
         data, _ = host.wait(lambda m: m.kind == "DDATA", after=place)
@@ -288,7 +288,7 @@ class Served(service_case.ServiceCase, Case):
         self.begin_broker()
         host = self.begin_host()
         host.announce(True)
-        service = self.begin('primary_host = "scada"')  # who else waits for a host that hears all
+        service = self.begin('primary_host = "scada"')  # the others wait for a host that has subscribed to all
         birth, _ = host.wait(lambda m: m.kind == "NBIRTH")
         alias = host.wait(lambda m: m.kind == "DBIRTH")[0].named("orders").alias
         self.wait_value(host, "x", "running", lambda metric: metric.value is True)
@@ -306,7 +306,7 @@ class Served(service_case.ServiceCase, Case):
         def kept(message):
             return [metric.value for metric in message.metrics if metric.historical and metric.alias == alias and metric.value > before + 3]
 
-        # What happened while nobody was there comes afterwards, as history.
+        # Changes while the broker was away are sent afterwards, as history.
         old, _ = host.wait(kept, after=place)
         self.assertTrue(all(metric.timestamp <= again.timestamp for metric in old.metrics if metric.historical))
         self.assertEqual(self.end(service), 0)

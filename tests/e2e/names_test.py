@@ -80,7 +80,7 @@ class Names(program_case.ProgramCase):
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def ended(self, name, second):
-        """nanoplc stays, with that axis stopped, and tries again: it is told to end. What it has said until then."""
+        """nanoplc stays, with that axis stopped, and tries again: it is terminated here. Its output until then."""
         said = ""
         while name == "nanoplc" and "already serves" not in said:
             said += second.stderr.readline()

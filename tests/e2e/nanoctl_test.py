@@ -121,7 +121,7 @@ class Tables(Case):
 
 
 class WhyNothingMoves(Case):
-    """The number and the name that every face tells; KVOUT, register 13, is the load factor."""
+    """The number and the name that every interface shows; KVOUT, register 13, is the load factor."""
 
     def first(self, *arguments):
         status = self.ctl("status", *arguments)

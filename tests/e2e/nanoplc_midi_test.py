@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""nanoplc with MIDI drives: virtual modules on V24 terminals, and what its configuration may say.
+"""nanoplc with MIDI drives: virtual modules on V24 terminals, and the valid configurations.
 
 usage: nanoplc_midi_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq MIDISIM
 """
@@ -91,7 +91,7 @@ class Running(Case):
 class TwoAtOneAddress(Case):
     """Two modules on one line, real processes and a real terminal."""
 
-    # Answers that fell into each other tell of a second drive, too.
+    # Answers that collide indicate a second drive, too.
     TOLD = (r"x: ERROR: more than one MIDI drive answers to this address[^\n]*macreg midi address set|"
             r"x: ERROR: each answer of the MIDI drive came damaged[^\n]*a second drive at its address")
 

@@ -120,7 +120,7 @@ class Clients(Values):
             self.assertEqual(self.values(), before, told)
 
     def others_go_on(self, client, sets):
-        """Or hear who is in their way: a terminal is one program's at a time."""
+        """Or get a message that names the other program: one program uses a terminal at a time."""
         if self.kind == "pty":
             code, told = self.end_of(self.nanoctl("recipe", "save", "Beside"))
             if code != 0:

@@ -34,7 +34,7 @@ END_PROGRAM
 
 class LongRuns(Case):
     def run_many(self, length, *options):
-        """Orders without a pause for so long: what it says at the end, and its memory in KiB."""
+        """Orders without a pause for so long: its output at the end, and its memory in KiB."""
         # What a sanitizer keeps of freed memory is not the program's.
         environment = {**os.environ, "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=0"}
         with open(self.path("said"), "w+", encoding="utf-8") as said:

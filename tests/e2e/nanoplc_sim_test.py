@@ -185,7 +185,7 @@ class Run(Case):
             self.assertEqual(done.stdout.count(waits), 2, done.stdout)  # in the timeline and behind it
         for there in ("line restored", "line cut for 500 ms", "at 500 ms line cut"):
             self.assertNotIn(waits, self.run_with(f"{there}\nend at 2 s\n").stdout, there)
-        done = self.run_with("end at 2 s\n", "--new")  # it waits for somebody
+        done = self.run_with("end at 2 s\n", "--new")  # it waits for input
         self.assertNotIn(waits, done.stdout)
 
     def test_inputs_that_are_on_from_the_beginning(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What nanoplc has stored is damaged, missing, or cannot be written: nothing starts by itself, and every port says why.
+"""What nanoplc has stored is damaged, missing, or cannot be written: nothing starts by itself, and every port gives the reason.
 
 usage: nanoplc_store_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq
 """
@@ -59,7 +59,7 @@ class Mark(Stored):
             self.ctl("run")
             self.moves()
             self.end(service)
-            self.end(self.start(config))  # it has been written anew
+            self.end(self.start(config))  # it has been written again
 
     def test_a_folder_in_its_place(self):
         config = self.stored_run()

@@ -292,7 +292,7 @@ port = "tcp:0.0.0.0:2000"
         return path
 
     def test_a_port_with_a_password(self):
-        """Without it one reads and stops; with it one changes, by nanoctl and by macreg; a wrong one is refused and told of."""
+        """Without it one reads and stops; with it one changes, by nanoctl and by macreg; a wrong one is refused and reported."""
         self.plug_in()
         right, wrong = self.secret("correct horse battery"), self.secret("wrong horse battery")
         service = self.start(self.write(self.axis(port=f'unix:{self.path("x")}"\npassword_file = "{right}')))
@@ -386,7 +386,7 @@ class Telling(ServiceCase):
             self.assertEqual(process.wait(LONG), 0)
         self.assertTrue(all(line[0] == "<" and line[1] in "34567" and line[2] == ">" for line in seen), seen)
         self.assertIn("<5>started with 1 axis\n", seen)
-        # SAFE_REASON 8, told to be, is a warning.
+        # SAFE_REASON 8, commanded by the user, is a warning.
         self.assertTrue(any(line.startswith("<4>x: SAFE: told to be") for line in seen), seen)
 
     def test_the_journal_can_be_searched_by_cause(self):

@@ -258,7 +258,7 @@ if __name__ == "__main__":
     if IN_NAMESPACE not in os.environ:
         private = ["unshare", "--user", "--map-root-user", "--mount"]
         if subprocess.run([*private, "true"], check=False).returncode != 0:
-            sys.exit(77)  # skipped: this machine lets nobody mount
+            sys.exit(77)  # skipped: mounting is not permitted on this machine
         os.environ[IN_NAMESPACE] = "yes"
         os.execvp("unshare", [*private, sys.executable, "-B", *sys.argv])
     unittest.main(argv=sys.argv[:1])

@@ -1,4 +1,4 @@
-"""A serial line with several devices on it: a terminal for the master, a socket of each device. What the master sends all hear, and
+"""A serial line with several devices on it: a terminal for the master, a socket of each device. All devices receive what the master sends, and
 what they send comes to it as it comes."""
 
 import os

@@ -194,7 +194,7 @@ class Host:
         self.client.publish(topic, payload, 1, retain).wait_for_publish()
 
     def announce(self, online):
-        """The state of primary host scada (Sparkplug 3.0 §6.4.13), once this client hears everything."""
+        """The state of primary host scada (Sparkplug 3.0 §6.4.13), once this client has subscribed to everything."""
         assert self.ready.wait(LONG)
         state = json.dumps({"online": online, "timestamp": int(time.time() * 1000)})
         self.client.publish("spBv1.0/STATE/scada", state, 1, True).wait_for_publish()

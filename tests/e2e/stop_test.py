@@ -114,7 +114,7 @@ class Gateway(ServiceCase):
         return self.clients[-1]
 
     def state(self):
-        """0 stopped, 2 running; asked by a client of its own."""
+        """0 stopped, 2 running; read by a separate client."""
         client = Client(self.endpoint)
         status = client.read(STATUS)
         client.close()
@@ -371,7 +371,7 @@ class Names:
 
 
 class OnASerialLine(ServiceCase):
-    """One program's line, of which nobody can tell whether the program is still there."""
+    """A line of one client, whose disconnection cannot be detected."""
 
     def setUp(self):
         super().setUp()

@@ -33,7 +33,7 @@ class Stored(ServiceCase):
             file.write(bytes([byte]) * BLOCK)
 
     def expect_waits(self, config, reason, said):
-        """It does not start by itself, and says why everywhere."""
+        """It does not start by itself, and every interface gives the reason."""
         service = self.start(config)
         self.until(lambda: said in service.said(), service)
         status = self.ctl("status")

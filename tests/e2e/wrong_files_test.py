@@ -40,7 +40,7 @@ class WrongFiles(program_case.ProgramCase):
         self.launch(program("midisim"), "--model", "MAC34-1", "--v24", self.module)
 
     def readers(self):
-        """Who reads a file: what it wants, and the command."""
+        """A reader of a file: the expected content, and the command."""
         seqc, sim = program("seqc"), [program("nanoplc-sim"), "run"]
         nanoctl = [program("nanoctl"), "--port", self.gateway]
         macreg = [program("macreg"), "--port", self.motor]

@@ -21,7 +21,7 @@ ARCHITECTURES = {
     "arm64": ("board", "aarch64-linux-gnu-g++", "qemu-aarch64-static"),
     "armhf": ("board-armhf", "arm-linux-gnueabihf-g++", "qemu-arm-static"),
 }
-# qemu-user 7.2 does not know TCSETS2, by which any speed of a serial port is set. The virtual board has real ports.
+# qemu-user 7.2 does not support TCSETS2, by which any speed of a serial port is set. The virtual board has real ports.
 NOT_EMULATED = {"hal_linux": "Uart.*"}
 LONGEST = 600
 

@@ -67,7 +67,7 @@ class FlashController:
 
 
 class Board(machine.Machine):
-    """With a loader. What is in the flash outlives power cuts, and a reset as well: qemu writes the loader anew, which is the same."""
+    """With a loader. What is in the flash outlives power cuts, and a reset as well: qemu writes the same loader again."""
 
     def __init__(self, loader, folder, flash, images):
         super().__init__(loader, folder)

@@ -67,7 +67,7 @@ class Debugger:
         return packet.group(1).decode()
 
     def command(self, text, begins):
-        """The answer that begins so; what the stopped core says by itself is passed over."""
+        """The answer that begins so; unsolicited messages of the stopped core are skipped."""
         self.send(text)
         while True:
             answer = self.receive()

@@ -21,7 +21,7 @@ class Microbit(machine.Emulated):
     """Started with button A held its line serves the user: this program connects to "user", in real time over a line with a
     speed (wire.py). Otherwise the motor's.
 
-    Flash from `kept_from` on outlives power cuts; a reset writes the image anew, so it must lie before that."""
+    Flash from `kept_from` on outlives power cuts; a reset writes the image again, so it must end before that."""
 
     def __init__(self, image, folder, fast=False, kept_from=STORAGE):
         super().__init__(image, folder)
@@ -70,7 +70,7 @@ class Microbit(machine.Emulated):
         self.go(held=True)
 
     def stop_at_resets(self, on):
-        """The board stands at its own resets until go_on_after_reset(), which presses the button anew."""
+        """The board stands at its own resets until go_on_after_reset(), which presses the button again."""
         self.monitor.do("set-action", reboot="shutdown" if on else "reset", shutdown="pause" if on else "poweroff")
 
     def go_on_after_reset(self):

@@ -130,7 +130,7 @@ class Image(unittest.TestCase):
             self.assertEqual(self.board.outputs(), SAFE, "it does not run by itself")
 
     def end_in_service(self, *code):
-        """The reset that follows waits for this program; what the log says after it."""
+        """The reset that follows waits for this program; the log after it."""
         self.prepare()
         self.board.monitor.do("set-action", reboot="shutdown", shutdown="pause")
         debugger = self.board.debugger()

@@ -1,4 +1,4 @@
-"""Looks at a bill of materials: its form, as SPDX 2.3 wants it, and its facts, as other tools tell them."""
+"""Looks at a bill of materials: its form, by SPDX 2.3, and its facts, as other tools report them."""
 
 import hashlib
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Debian packages for other processors: what they say of themselves, and their programs under qemu-user.
+"""The Debian packages for other processors: their metadata, and their programs under qemu-user.
 
 usage: foreign_test.py ARCHITECTURE[=BUILD_FOLDER]...
 
@@ -74,7 +74,7 @@ def build(architecture, folder):
 
 @contextlib.contextmanager
 def service(emulator, program, folder, port, ca):
-    """nanoplc under way, its axis without a motor: what it says."""
+    """nanoplc under way, its axis without a motor: its output."""
     config = os.path.join(folder, "nanoplc.toml")
     with open(config, "w", encoding="utf-8") as file:
         file.write(CONFIG.format(folder=folder, port=port, ca=ca))
@@ -86,7 +86,7 @@ def service(emulator, program, folder, port, ca):
 
 
 def speaks_mqtt(emulator, program):
-    """What is wrong: births over TLS to a broker that goes by its name, and none to one of another's certificate."""
+    """What is wrong: births over TLS to a broker with the right name, and none to one with another's certificate."""
     with tempfile.TemporaryDirectory() as folder:
         broker = Broker(folder, certificates.make(folder))
         host = Host(broker.port, user=("cell", "right"), ca=os.path.join(folder, "ca.pem"))
@@ -107,7 +107,7 @@ def speaks_mqtt(emulator, program):
 
 
 def materials(architecture, package):
-    """What is wrong with its bill of materials, and what lintian says."""
+    """What is wrong with its bill of materials, and lintian's findings."""
     path = package.removesuffix(".deb") + ".spdx.json"
     wrong = bill.problems(path, package)
     document = bill.read(path)

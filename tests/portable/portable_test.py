@@ -27,7 +27,7 @@ REFERENCE = ""
 EXAMPLES = sorted(glob.glob(os.path.join(ROOT, "tools", "sequence", "examples", "*.seq")))
 OWN_OF_WINDOWS = {"kernel32.dll", "msvcrt.dll", "ws2_32.dll", "advapi32.dll", "user32.dll", "shell32.dll"}
 
-# Says its argument and its input again; knows svg only.
+# Says its argument and its input again; supports svg only.
 STAND_IN_FOR_DOT = r"""
 #include <fcntl.h>
 #include <io.h>

@@ -38,7 +38,7 @@ class Commit(unittest.TestCase):
         self.tree, self.archive = os.path.join(folder.name, "tree"), os.path.join(folder.name, "archive")
         shutil.copytree(os.path.join(ROOT, SCRIPTS), os.path.join(self.tree, SCRIPTS))
         shutil.copy(os.path.join(ROOT, ".gitattributes"), self.tree)
-        # A tree that is an archive itself knows its own commit, which is none of the new tree's.
+        # A tree that is an archive itself contains its own commit, which is none of the new tree's.
         with open(os.path.join(self.tree, SCRIPTS, "archived_commit.txt"), "w", encoding="utf-8") as file:
             file.write("$Format:%H %ct$\n")
 

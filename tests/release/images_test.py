@@ -45,7 +45,7 @@ class Images(unittest.TestCase):
             self.assertEqual(len(found), 1, preset)
             self.assertRegex(found[0].decode(), rf"^{re.escape(NAMES[preset])} {re.escape(self.version)} "
                              r"([0-9a-f]{12}(-changed)?|unknown)\0$")
-            # The register FW_VERSION of the same image says the same.
+            # The register FW_VERSION of the same image has the same version.
             numbers = [int(number) for number in self.version.split(".")]
             with open(os.path.join(ROOT, "firmware/gateway/include/gateway/version.h"), encoding="utf-8") as file:
                 said = int(re.search(r"kFirmwareVersion = (0x[0-9A-Fa-f']+)", file.read())[1].replace("'", ""), 16)

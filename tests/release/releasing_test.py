@@ -86,7 +86,7 @@ class Releasing(Repository):
         commit = self.do("git rev-parse HEAD").strip()
         with open(os.path.join(out, "SHA256SUMS.minisig"), encoding="utf-8") as file:
             self.assertIn(f"trusted comment: NanoPLC Gateway {VERSION}, commit {commit}\n", file.read())
-        # Who has the source alone knows what it is of.
+        # The source archive alone contains its version and commit.
         self.do(f"tar -xzf {out}/nanoplc-gateway_{VERSION}.tar.gz -C .. && grep -q '^{commit} ' "
                 f"../nanoplc-gateway_{VERSION}/tools/cmake/archived_commit.txt")
 

@@ -51,7 +51,7 @@ port = "unix:/tmp/x"
 debounce = 0
 on_start = true
 """
-# The kernel's own trace tells the time of both ends: the interrupt of the line, and what is handed to the serial driver.
+# The kernel's trace has the time of both ends: the interrupt of the line, and what is handed to the serial driver.
 SCRIPT = gpio_sim.SCRIPT + """
 mkdir -p /dev/pts
 mount -t devpts none /dev/pts

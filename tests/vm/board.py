@@ -38,7 +38,7 @@ class CannotBeHad(Exception):
     """What the virtual board consists of cannot be downloaded."""
 
 
-# CTest's build.board has fetched and built all just before, or told why it cannot be had.
+# CTest's build.board has fetched and built all just before, or printed why it is not available.
 IS_BUILT = "NPLC_BOARD_IS_BUILT" in os.environ
 
 

@@ -13,7 +13,7 @@ ROOT = os.path.join(board.HERE, "..", "..")
 
 
 class Phases:
-    """Says how long each part took."""
+    """Prints the time of each part."""
 
     def __init__(self):
         self.start = time.monotonic()

@@ -29,7 +29,7 @@ echo 'the watchdog did not reset the board'; exit 1
 
 
 def echo(line):
-    """The other end of the adapter's line says everything again."""
+    """The other end of the adapter's line echoes everything."""
     while heard := line.recv(4096):
         line.sendall(heard)
 

@@ -4,7 +4,7 @@ look after it then, and may run side by side.
 
 usage: build_programs.py
 
-What cannot be downloaded is told; the tests that need it are skipped.
+Failed downloads are reported; the tests that need it are skipped.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""A disk for the virtual board that forgets at a power cut what it had not been told to keep.
+"""A disk for the virtual board that loses at a power cut what had not been flushed.
 
     disk = Disk(path_of_image, folder)
     board.Board(..., more=disk.arguments())

@@ -12,7 +12,7 @@ import sys
 import board
 from board_run import build, in_share
 
-# Two modules; `ask` sends a frame and waits for the answer, `reach` asks again and again until it is that.
+# Two modules; `ask` sends a frame and waits for the answer, `reach` repeats it until the answer is the expected one.
 SCRIPT = """
 export PATH=$PATH:/usr/bin
 for one in can0 can1; do /usr/bin/ip link set $one type can bitrate 125000 && /usr/bin/ip link set $one up || exit 1; done

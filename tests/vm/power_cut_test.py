@@ -4,8 +4,8 @@ before or the new one.
 
 usage: power_cut_test.py NANOCTL [SEED [CUTS]]
 
-Each cut is a SIGKILL for qemu in a write or a flush of the disk, which loses about half of what it had not been told to
-keep (disk.py). Fetches and builds what is missing. 77: the virtual board is not to be had; the reason is printed.
+Each cut is a SIGKILL for qemu in a write or a flush of the disk, which loses about half of what had not been
+flushed (disk.py). Fetches and builds what is missing. 77: the virtual board is not to be had; the reason is printed.
 """
 
 import os

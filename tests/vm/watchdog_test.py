@@ -19,7 +19,7 @@ from board_run import build, in_share
 from nanoplc_test import commission, serve_user
 
 # No motor answers: a sequence that has started by itself waits for it. The driver of the virtual board's watchdog (i6300esb) reports its
-# resets and does not say that it can: without after_power_cut the sequence would wait after the power cut, too.
+# resets but does not report this capability: without after_power_cut the sequence would wait after the power cut, too.
 CONFIG = """
 [service]
 state_directory = "/disk/state"

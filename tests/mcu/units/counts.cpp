@@ -57,7 +57,7 @@ void print_row(const char* name, std::uint32_t count) {
     mcu_units::print("\n");
 }
 
-/// A line on which the counting says what arrives.
+/// A line on which the count determines the received bytes.
 struct Line final : ports::SerialPort {
     std::size_t write(std::span<const std::uint8_t> bytes) override { return bytes.size(); }
     std::size_t read(std::span<ports::ReceivedByte> out) override {

@@ -1,4 +1,4 @@
-// Runs the tests on the bare core and tells the debugger's host what came of them.
+// Runs the tests on the bare core and reports the results to the debugger's host.
 
 #include <gtest/gtest.h>
 

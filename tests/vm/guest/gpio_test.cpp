@@ -27,7 +27,7 @@ std::string refusal(const Lines& lines) {
     return take_inputs(bits, lines);
 }
 
-/// The line of gpioinfo that tells of this one.
+/// The line of gpioinfo on this one.
 std::string info(unsigned line) {
     return output_of("gpioinfo gpiochip0 | grep 'line *" + std::to_string(line) + ":'");
 }

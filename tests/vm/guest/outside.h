@@ -99,7 +99,7 @@ class Process {
     pid_t id_;
 };
 
-/// What `work` says as a user without rights.
+/// The output of `work` as a user without rights.
 inline std::string as_nobody(const std::function<std::string()>& work) {
     std::array<int, 2> ends{};
     EXPECT_EQ(::pipe(ends.data()), 0);

@@ -4,7 +4,7 @@
 
 #include "outside.h"
 
-// A serial adapter on USB (FTDI); its other end says everything again.
+// A serial adapter on USB (FTDI); its other end echoes everything.
 namespace nplc::board_tests {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "outside.h"
 
-// The watchdog of the virtual board is an Intel 6300ESB. What the kernel tells of it is under
+// The watchdog of the virtual board is an Intel 6300ESB. The kernel's data on it is under
 // /sys/class/watchdog.
 namespace nplc::board_tests {
 namespace {
