@@ -6,7 +6,7 @@
 #include "bench.h"
 #include "macreg/why.h"
 
-/// Each cause that `why` knows, and how a virtual motor comes to it.
+/// Each cause that `why` can report, and how a virtual motor is brought into it.
 namespace nplc::macreg {
 
 using namespace std::chrono_literals;
@@ -45,7 +45,7 @@ inline const std::vector<Case>& cases() {
     static const std::vector<Case> kCases{
         {"passive", [](Bench&) {}},
         {"safe_mode", [](Bench& b) { b.sim.enter_safe_mode(); }},
-        {"mode_unknown", [](Bench&) {}},  // told apart below: a motor refuses such a mode
+        {"mode_unknown", [](Bench&) {}},  // distinguished below: a motor refuses such a mode
         {"test_mode", [](Bench& b) { mode(b, 7); }},
         {"stop_mode",
          [](Bench& b) {  // a heavy load that turns on

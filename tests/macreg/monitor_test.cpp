@@ -211,9 +211,9 @@ TEST(MactalkMonitor, TwoStreams) {
     EXPECT_NE(one(line).find("are the two ports exchanged?"), std::string::npos);
 }
 
-// Every place of the read, every other value: the damaged message is told as a flaw, and the exchange that
-// follows is understood. (Damage may make it another whole message only in the head: 50h to 53h..57h never,
-// as all three bytes must be alike.)
+// Every place of the read, every other value: the damaged message is reported as a flaw, and the exchange
+// that follows is understood. (Damage may make it another whole message only in the head: 50h to 53h..57h
+// never, as all three bytes must be alike.)
 TEST(MactalkMonitor, InStepAgainWithTheNextMessageAfterAnyDamage) {
     const Bytes read = from_hex(kRead);
     for (std::size_t at = 0; at < read.size(); ++at) {

@@ -1,4 +1,4 @@
-// What `why` tells people to type does what it says: typed literally it is taken, and changes nothing else.
+// The commands that `why` recommends are accepted as printed, and change nothing else.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -71,7 +71,7 @@ TEST(Values, ShownNamesGiveTheSameBitsAgain) {
     EXPECT_EQ(bits_word(*registers::find(Model::mac800, "CNTRL_BITS"), Model::mac800, -1), "0xFFFFFFFF");
 }
 
-// Counts tell single steps apart; 4096 of them are a turn, P_FNC's steps are sixteenths (001 §3.2.8).
+// Counts resolve single steps; 4096 of them are a turn, P_FNC's steps are sixteenths (001 §3.2.8).
 TEST(Values, PositionsAreShownInCountsAndWhereThereIsRoomInTurnsToo) {
     EXPECT_EQ(value_text(reg("P_IST"), Model::mac140, 20'480), "20480 counts");
     EXPECT_TRUE(long_value_text(reg("P_IST"), Model::mac140, 20'480).starts_with("20480 counts (5"));

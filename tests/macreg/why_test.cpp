@@ -184,7 +184,7 @@ TEST(Why, TheGatewayIsToldBeforeThePassiveMotor) {
     EXPECT_NE(why(condition).front().remedy.find("First `nanoctl stop`"), std::string::npos);
 }
 
-/// In a fault step the sequence has sent STOP, and somebody must acknowledge: no write to the motor helps.
+/// In a fault step the sequence has sent STOP, and an operator must acknowledge: no write to the motor helps.
 TEST(Why, ASequenceThatStoppedTheMotorIsNotOverruled) {
     namespace gw = registers::gateway;
     Bench bench;
@@ -258,7 +258,7 @@ TEST(Why, AMotorOnItsWayToALowerVelocityDoesNotRunAway) {
     }
 }
 
-// 001 §3.2.163: the profile is at its target, the shaft is not where the target says.
+// 001 §3.2.163: the profile is at its target, the shaft is not at the target.
 TEST(Why, AMotorWhosePlaceWasWrittenIsNotAtItsTarget) {
     for (const Model model : {Model::mac140, Model::mac800}) {
         Bench bench(model);
@@ -296,7 +296,7 @@ TEST(Why, AShaftThatIsHeldShortOfItsTargetIsNotAtIt) {
     EXPECT_NE(find(why(condition), "at_target"), nullptr);
 }
 
-// A target that is 29.8 turns away is told before P_MODE is chosen.
+// A target that is 29.8 turns away is reported before P_MODE is chosen.
 TEST(Why, ThePassiveMotorsWayToItsTargetIsTold) {
     Bench bench;
     bench.put("CNTRL_BITS", 3);

@@ -51,9 +51,9 @@ class BusCan final : public host::CanClient {
 
     std::deque<sim::MidiModule> modules;
     std::vector<ports::CanFrame> sent;
-    std::function<bool(std::size_t module, const Frame&)> loses{};  ///< true: the module does not hear it
+    std::function<bool(std::size_t module, const Frame&)> loses{};  ///< true: the module does not receive it
     std::function<void()> on_step{};
-    /// The master hears it, whoever sent it.
+    /// The master receives it, whichever node sent it.
     void tell(const Frame& frame) { received_.push_back(frame); }
     std::function<bool(const Frame&)> master_misses{};
     bool takes = true;

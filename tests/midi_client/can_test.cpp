@@ -68,7 +68,7 @@ TEST_F(CanTest, TwoModulesAreNotGivenOneAddress) {
     EXPECT_EQ(std::count(can.sent.begin(), can.sent.end(), operate), 0);
 }
 
-// No manual says how long it takes to start; 000 §VI 00h has two seconds.
+// No manual gives its start-up time; 000 §VI 00h has two seconds.
 TEST_F(CanTest, ABootUpMayTakeItsTime) {
     BusCan one({1});
     CanLink own(one);

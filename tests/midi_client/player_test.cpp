@@ -157,7 +157,7 @@ class OnABus : public testing::Test {
   protected:
     OnABus() { link.pause(base::Milliseconds{10}); }  // the first boot-ups
 
-    /// As a module that is back before anybody misses it.
+    /// As a module that is back before a request to it times out.
     void boots(std::uint8_t address) {
         can.tell({.id = static_cast<std::uint16_t>(0x700 + address), .length = 1});
     }

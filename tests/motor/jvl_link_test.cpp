@@ -41,7 +41,7 @@ struct LinkTest : testing::Test {
         ASSERT_FALSE(link.busy());
         line.take();
     }
-    /// Hears `byte` up to `times` times; how many it took until something was sent or decided.
+    /// Receives `byte` up to `times` times; how many it took until something was sent or decided.
     int hear_until_sent(std::uint8_t byte, int times) {
         for (int i = 1; i <= times; ++i) {
             if (motor.hear(byte) != Result::none || !line.sent.empty()) return i;

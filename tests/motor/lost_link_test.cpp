@@ -10,7 +10,7 @@ struct LostLink : MotorTest {
         start();
         motor.hear_times(2, 0x90);
         for (int i = 0; i < 45; ++i) motor.silence();
-        line.take();  // the NOP that nobody answered
+        line.take();  // the NOP that was not answered
     }
     void restart() {
         motor.hear_times(2, 0x10);
@@ -120,7 +120,7 @@ TEST_F(LostLink, AStopOrderedMeanwhileIsSentBlindAndIsTheFirstThingDelivered) {
     EXPECT_TRUE(driver.stop_confirmed());
 }
 
-// At a start, too, somebody is listened for first.
+// At a start, too, the driver waits for an answer first.
 TEST(Start, NothingIsSentBlindBeforeTheLinkCountsAsLost) {
     ScriptedLine line;
     JvlMotor driver{line, {}};

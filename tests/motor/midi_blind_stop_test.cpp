@@ -1,5 +1,5 @@
-// A stop for a MIDI drive that is not heard, or does not hear: sent blind until it is confirmed, which only
-// an answer to the stop itself does, or the shaft read at rest since it was asked.
+// A stop for a MIDI drive when its answers or the commands to it are lost: sent blind until it is confirmed,
+// which only an answer to the stop itself does, or the shaft read at rest since it was asked.
 
 #include "midi_bench.h"
 #include "scripted_line.h"

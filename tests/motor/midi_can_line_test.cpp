@@ -137,7 +137,7 @@ TEST_F(MidiCanLineTest, AfterABootUpNothingIsSentBeforeItWasTold) {
     EXPECT_EQ(bus.take(), Frames{kRun});
 }
 
-// What other masters ask it too: the module answers them as well.
+// Requests of other masters too: the module answers them as well.
 TEST_F(MidiCanLineTest, OnlyTheModulesOwnFramesComeIn) {
     ASSERT_EQ(bus.filters.size(), 3U);
     EXPECT_EQ(bus.filters[2].id, 0x605U);

@@ -1,4 +1,4 @@
-// The driver on the CAN link, frame by frame (003 §V, §VII), with a module that answers as the test says.
+// The driver on the CAN link, frame by frame (003 §V, §VII), with a module whose answers the test determines.
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +9,7 @@
 namespace nplc::motor {
 namespace {
 
-/// The driver on this bus, and a module that answers as the test says.
+/// The driver on this bus, and a module whose answers the test determines.
 struct MidiCanScriptTest : MidiCanLineTest {
     MidiMotor driver{link, {.model = midi::Model::mac34_1}};
     std::string position = "00 00 00 00";
@@ -154,7 +154,7 @@ TEST_F(MidiCanScriptTest, AMoveOfWhichNobodyKnowsIsAskedAfterFirst) {
     start();
     move();
     EXPECT_EQ(next(), kAskStatus) << "after silence a query";
-    answer("585 60 13 20 00 00 00 00 00");  // late, and nobody's
+    answer("585 60 13 20 00 00 00 00 00");  // late, and for no request
     answer_query(kAskStatus);
     busy = true;  // it was taken
     EXPECT_EQ(until_command(40), "");
@@ -437,7 +437,7 @@ TEST_F(MidiCanScriptTest, AnythingOnTheBus) {
     }
 }
 
-/// "P_IST = 0" (03h) sets the module's origin, 0Bh. Nothing says whether it was taken but the position.
+/// "P_IST = 0" (03h) sets the module's origin, 0Bh. Only the position shows whether it was accepted.
 struct UnansweredOrigin : MidiCanScriptTest {
     const std::string kZero = "605 23 0B 20 00 00 00 00 00";
 

@@ -1,4 +1,4 @@
-// A position that the motion cannot explain: somebody else set the origin, or the shaft was taken elsewhere.
+// A position that the motion cannot explain: another master set the origin, or the shaft was taken elsewhere.
 
 #include "midi_bench.h"
 
@@ -113,7 +113,7 @@ TEST_P(MidiJumpTest, ADriverThatWasHeldUpSeesNone) {
     go(49'152);
     for (int i = 0; i < 20; ++i) {
         bench.pass(13ms);
-        // The module answers; nobody looks for 80 ms.
+        // The module answers; the driver is not served for 80 ms.
         bench.now += 80ms;
         bench.drive.service(bench.now);
     }
@@ -129,7 +129,7 @@ TEST_P(MidiJumpTest, ChangesOfSpeedAreNone) {
     }
 }
 
-/// It catches up with 200 us an increment for each unit, faster than it was told to go.
+/// It catches up with 200 us an increment for each unit, faster than it was ordered to move.
 TEST_P(MidiJumpTest, CatchingUpIsNone) {
     bench.order_and_settle(word(registers::V_SOLL, 8));
     module.hold_shaft(true);

@@ -393,7 +393,7 @@ TEST_F(MidiScriptTest, AModuleWithoutASpeedIsAnErrorAtTheMove) {
     EXPECT_EQ(until_command(), "000D0000000320");
 }
 
-/// 003 §IV: positions have 31 bits; what a module says beyond them is worked with all the same.
+/// 003 §IV: positions have 31 bits; positions that a module reports beyond them are used all the same.
 TEST_F(MidiScriptTest, ThePositionsThatAModuleSaysAreOnlyNumbers) {
     start();
     for (const char* place : {"7FFFFFFF", "80000000", "7FFFFFFF", "3FFFFFFF", "C0000000"}) {

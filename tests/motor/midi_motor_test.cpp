@@ -409,7 +409,7 @@ TEST_P(MidiMotorTest, LostInMidMove) {
     EXPECT_EQ(driver.counters().link_losses, 1U);
 }
 
-/// With ERROR the mode is 0, and nothing may turn that nobody leads any more.
+/// With ERROR the mode is 0, and nothing may turn that is not controlled any more.
 TEST_P(MidiMotorTest, WhatStillTurnsWhenTheLinkIsBackIsStopped) {
     bench.order(word(registers::A_SOLL, 160));
     bench.order(word(registers::V1, 800));

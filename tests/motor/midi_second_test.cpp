@@ -1,5 +1,5 @@
 // Two drives at one address (000 §IV: addresses are distinct), frame by frame and byte by byte: what the
-// driver hears of them, and what it must not take for them.
+// driver receives from them, and what it must not take for them.
 
 #include <string>
 

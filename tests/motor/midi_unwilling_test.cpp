@@ -10,7 +10,7 @@
 namespace nplc::motor {
 namespace {
 
-/// A module on CAN that moves by `step` between two positions, and answers commands as told.
+/// A module on CAN that moves by `step` between two positions, and answers commands as the test determines.
 struct UnwillingModule : MidiCanLineTest {
     MidiMotor driver{link, {.model = midi::Model::mac34_1}};
     enum class Does : std::uint8_t { carries_out, refuses, is_mute };

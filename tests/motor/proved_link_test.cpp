@@ -18,7 +18,7 @@ struct ProvedLink : MotorTest {
         EXPECT_TRUE(line.sent.empty()) << "not before 20 ms";
         exchange(bytes, before, after);
     }
-    /// It may look at the line anew meanwhile, and finds what never changes.
+    /// It may read the line again meanwhile, and finds it unchanged.
     void expect_lost() {
         EXPECT_FALSE(link_is_usable(driver.link()));
         EXPECT_TRUE(driver.error());

@@ -28,7 +28,7 @@ inline std::string text_of(const ports::CanFrame& frame) {
     return text;
 }
 
-/// A bus whose other nodes are the test: it writes down what is sent, and says what is received.
+/// A bus whose other nodes are the test: it records what is sent, and determines what is received.
 class ScriptedCan final : public ports::CanPort {
   public:
     bool write(const ports::CanFrame& frame) override {

@@ -12,7 +12,7 @@ namespace nplc::motor {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A line whose other end is the test: it writes down what is sent, and says what is received.
+/// A line whose other end is the test: it records what is sent, and determines what is received.
 class ScriptedLine final : public ports::SerialPort {
   public:
     std::size_t write(std::span<const std::uint8_t> bytes) override {

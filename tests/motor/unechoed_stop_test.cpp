@@ -1,5 +1,5 @@
 // A motor that takes everything but the stop. Only the stop's own echo confirms it; registers cannot be read
-// in its stead, because a read is taken by an echo too, and comes after the stop.
+// instead, because a read is taken by an echo too, and comes after the stop.
 
 #include <algorithm>
 

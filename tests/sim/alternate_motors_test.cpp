@@ -59,7 +59,7 @@ class Life {
 
 class AlternateMotors : public testing::TestWithParam<Servo::Depth> {};
 
-// A motor knows of no other: two of each family stepped in turn live as each does alone.
+// Motors are independent: two of each family stepped in turn behave as each does alone.
 TEST_P(AlternateMotors, EqualMotorsAlone) {
     const auto life = [&](std::size_t n) {
         const auto model = n % 2 == 0 ? registers::Model::mac140 : registers::Model::mac800;

@@ -132,7 +132,7 @@ TEST(FastMacCommand, Clears) {
     EXPECT_EQ(b.reg(FNC_OUT), 0);
 }
 
-// 04h, "step turntable": the target does not change, the motor makes the way anew.
+// 04h, "step turntable": the target does not change, the motor makes the move again.
 TEST(FastMacCommand, ClearPFnc) {
     MotorBench b = in_position();
     b.command(Number::clear_p_fnc);

@@ -1,4 +1,4 @@
-// 001 §5.2.1.4, command mode: each of the 32 commands changes what its line says and nothing else.
+// 001 §5.2.1.4, command mode: each of the 32 commands changes what its line describes and nothing else.
 #include <map>
 #include <string>
 #include <vector>

@@ -223,7 +223,7 @@ TEST(Gear, PulsesBeforeTheModeDoNotCount) {
     EXPECT_EQ(b.motor.p_ist(), 0);
 }
 
-// 001 §3.2.36: with FastMAC on the pins there are no pulses; the motor stands, and says why.
+// 001 §3.2.36: with FastMAC on the pins there are no pulses; the motor stands, and reports the reason.
 TEST(Gear, WithoutPinsTheMotorStandsAndSaysSo) {
     MotorBench b;
     b.motor.terminals().set_pulse_rate(50'000);

@@ -55,7 +55,7 @@ TEST_F(ListenerTest, ARefusedMessageKeepsNobodyWaitingAndItsClientIsToldWhyWhate
     EXPECT_EQ(heard(1), kAccept + reply_of(31, {0, 50, 0, 0}));
 }
 
-/// By which a client knows that a reset has been carried out.
+/// Shows a client that a reset has been carried out.
 TEST_F(ListenerTest, AfterARestartTheGatewaysResultCounts) {
     send(0, write_of(50));
     EXPECT_EQ(handed(), write_of(50));
@@ -223,7 +223,7 @@ TEST_F(ListenerTest, AWriteThatAStopCutShortIsNotTakenForDone) {
     EXPECT_EQ(heard(0), too_late(48));
 }
 
-/// It may be stored: the gateway knows.
+/// It may be stored: the gateway decides.
 TEST_F(ListenerTest, AChangeOfSetPointsThatAStopCutShortIsNotSaidToBeLost) {
     constexpr std::uint8_t kSetPointWrite = 91;
     const Bytes change = bytes(mactalk::encode_long_write(kGateway, kSetPointWrite, Bytes(16, 1)));
@@ -420,7 +420,7 @@ struct OperatingListenerTest : SeatedListenerTest {
         return bytes(mactalk::encode(
             {.kind = Kind::write, .address = kGateway, .reg = 15, .length = 4, .value = what}));
     }
-    /// What a client hears to a message that is not for the gateway.
+    /// The answer that a client gets to a message that is not for the gateway.
     Bytes told(Listener::Id who, const Bytes& message) {
         send(who, message);
         EXPECT_EQ(handed(), Bytes());
@@ -509,7 +509,7 @@ struct GuardedListenerTest : ListenerTest {
     }
     static Bytes no_password(std::uint8_t reg) { return reply_of(31, {30, reg, 0, 0}); }
     static Bytes state(std::uint8_t value) { return reply_of(10, {value, 0, 0, 0}); }
-    /// What the client hears to messages of which none is for the gateway.
+    /// The answers that the client gets to messages of which none is for the gateway.
     Bytes told(std::size_t who, const std::vector<Bytes>& messages) {
         Bytes all;
         for (const Bytes& message : messages) {
@@ -555,7 +555,7 @@ TEST_F(GuardedListenerTest, AnotherOneIsNone) {
     EXPECT_EQ(told(0, {order(kRun)}), Bytes());
 }
 
-/// For another unit on the line, and where none is asked for, the numbers are anybody's.
+/// For another unit on the line, and without a password, the numbers have no special meaning.
 TEST_F(GuardedListenerTest, OnlyTheGatewaysRegistersAreMeant) {
     const Bytes of_motor = bytes(mactalk::encode({.kind = Kind::read, .address = kMotor, .reg = 10}));
     send(0, of_motor);
@@ -573,7 +573,7 @@ struct CrowdedListenerTest : ListenerTest {
         listener.gone(client(0), now);
         listener.gone(client(1), now);
     }
-    /// Who goes for a newcomer; 0: nobody.
+    /// The client that is dropped for a new one; 0: none.
     Listener::Id come(Listener::Id who) {
         listener.connected(who, {}, now);
         const auto dropped = listener.take_dropped();

@@ -217,7 +217,7 @@ TEST(Load, BlockedInVelocityModeCountsFollowError) {
     EXPECT_EQ(b.motor.p_ist(), 0);
 }
 
-// 004, MAN_NO_BRAKE: a brake that is built in holds what pulls until the motor is told to drive, or to let
+// 004, MAN_NO_BRAKE: a brake that is built in holds what pulls until the motor is ordered to drive, or to let
 // go.
 TEST(Load, TheBrakeOfAMac800HoldsTheShaft) {
     constexpr std::int32_t kManNoBrake = 0x80;

@@ -125,7 +125,7 @@ TEST(MidiGateway, PickAndPlaceIsTheSameOnEveryDrive) {
 }
 
 /// 003 §VII 0Bh from another master, on the way to the place: the gripper must not open, and the reason is
-/// told.
+/// reported.
 TEST(MidiGateway, AnotherMastersOriginInMidMoveIsAFault) {
     for (const bool can : {false, true}) {
         const Program program = load_program(kExamples + "/midi_pick_and_place.seq");

@@ -6,7 +6,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Temperature and supply as GET_MEASURES tells them.
+/// Temperature and supply as GET_MEASURES reports them.
 std::uint32_t temperature(MidiBench& bench) {
     return bench.ask(midi::GET_MEASURES) >> 24;
 }

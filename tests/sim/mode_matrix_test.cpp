@@ -121,7 +121,7 @@ TEST(ModeMatrix, AnErrorKeepsInit) {
 }
 
 // 001 §3.2.35, §4.4.1: it is INIT that cannot be left. UV_ERR alone (§3.2.160 bit 0) stops nothing, so a
-// motor that runs goes on doing what it is told, to a stop too.
+// motor that runs goes on obeying orders, a stop too.
 TEST(ModeMatrix, AnErrorThatStopsNothingKeepsNoOtherMode) {
     constexpr std::int32_t kUvErr = 1 << 12;
     for (const int to : {2, 3, 11, 14}) {

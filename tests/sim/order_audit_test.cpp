@@ -94,7 +94,7 @@ TEST(OrderAudit, AnotherValueIsAnotherOrder) {
     EXPECT_EQ(found.unordered.count, 1U);
 }
 
-/// What the definition says, at a cost of the product of both lengths.
+/// Directly by the definition, at a cost of the product of both lengths.
 std::size_t longest_common(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (const std::uint8_t x : a) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A machine without any behaviour: the test says what its values are.
+/// A machine without any behaviour: the test sets its values.
 class Bench final : public Stage {
   public:
     explicit Bench(const std::string& text, const Names& names = {})

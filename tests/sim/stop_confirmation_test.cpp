@@ -76,7 +76,7 @@ TEST_P(StopConfirmation, ComesAtOnceOnALineInOrder) {
     EXPECT_EQ(count(Event::stop_confirmed), 1);
 }
 
-// More than 40 ms: the link is lost, and the log says why.
+// More than 40 ms: the link is lost, and the log has the reason.
 TEST_P(StopConfirmation, NeverComesOverALineThatIsTooLateWhichTheLogNames) {
     turn();
     EXPECT_EQ(count(Event::line_late), 0);
@@ -99,7 +99,7 @@ TEST_P(StopConfirmation, NeverComesOverALineThatIsTooLateWhichTheLogNames) {
     EXPECT_EQ(count(Event::line_late), 1);
 }
 
-// The motor hears, and nobody hears it: it is told blind, and nothing is called done.
+// The motor receives but its answers are lost: the stop is sent blind, and is not reported as done.
 TEST_P(StopConfirmation, NeverComesFromAMotorThatIsNotHeard) {
     turn();
     lose(false, true, 1);
@@ -116,7 +116,7 @@ TEST_P(StopConfirmation, NeverComesFromAMotorThatIsNotHeard) {
     EXPECT_TRUE(world.controller().sequence().run().ok());
 }
 
-// Nobody has asked for a stop: the safe state of a lost link does.
+// No client has requested a stop: the safe state of a lost link does.
 TEST_P(StopConfirmation, IsWantedAsSoonAsTheLinkIsLost) {
     turn();
     lose(false, true, 1);
@@ -130,7 +130,7 @@ TEST_P(StopConfirmation, IsWantedAsSoonAsTheLinkIsLost) {
     EXPECT_FALSE(controller().stop_unconfirmed());
 }
 
-// Given up while the line is cut: the motor is told once more as soon as it hears.
+// Given up while the line is cut: the stop is sent once more as soon as the motor receives.
 TEST_P(StopConfirmation, IsWantedAnewWhenALostLinkIsBack) {
     turn();
     world.cut_line(true);

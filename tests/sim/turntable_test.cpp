@@ -31,7 +31,7 @@ TEST(Turntable, ByPSollItEndsAfter670) {
     EXPECT_GT(b.reg(P_SOLL), 67'000'000);
 }
 
-// By P_FNC: after each move P_FNC is 0, P_SOLL too; only P_IST knows.
+// By P_FNC: after each move P_FNC is 0, P_SOLL too; only P_IST has the position.
 TEST(Turntable, ByPFncItGoesOn) {
     MotorBench b = turntable(protocol::fastmac::Number::positions_relative_p_fnc);
     for (int n = 1; n <= 20; ++n) {

@@ -15,8 +15,8 @@ namespace nplc::soak {
 using sim::Time;
 
 /// What was ordered against what the motor executed, at every moment: nothing that was not ordered, nothing
-/// twice, in the order given, nothing later than kLate, and all that the driver says is executed. What the
-/// driver discards may have been on the line, but is never delivered later.
+/// twice, in the order given, nothing later than kLate, and all that the driver reports as executed has been
+/// executed. What the driver discards may have been on the line, but is never delivered later.
 class OrderBook {
   public:
     /// Of what the driver dropped: the characters that the line's port still has.
@@ -30,9 +30,9 @@ class OrderBook {
     void executed(const sim::Order& order);
     /// What a person's program asks for, and the gateway may refuse.
     void by_person(std::uint8_t reg, std::uint32_t value);
-    /// After orders were executed: what the driver says of it.
+    /// After orders were executed: the driver's report of it.
     void settle();
-    /// The gateway started anew: what was on its way may have been executed.
+    /// The gateway restarted: what was on its way may have been executed.
     void restart();
     /// The line changed characters in a way that no repeat shows: for a while what is executed is not judged.
     void excuse(Time until) { excused_until_ = std::max(excused_until_, until); }

@@ -162,7 +162,7 @@ TEST(Refusal, OfAGeometryThatNoStorageHas) {
                      .is_possible());
 }
 
-/// A slot that is whole, but for what its header says.
+/// A slot that is whole, except for its header.
 sim::SimStorage device_with_header(const Shape& shape, const Header& header) {
     sim::SimStorage device(shape.geometry);
     const Layout layout(shape.geometry, shape.area);
