@@ -77,7 +77,7 @@ TEST(AxisLoop, TakesImagesOnlyWhileSomebodyAsks) {
     EXPECT_NEAR(static_cast<double>(bench.model.image_number() - first), 99, 2);
 }
 
-/// As a broker does, which is told of the axis at the start.
+/// As the MQTT face does, which publishes the axis at the start.
 TEST(AxisLoop, CausesAskedForBeforeTheMotorAnswersAreKnownSoonAfter) {
     Bench bench;
     const auto finds = [&bench](base::Microseconds within) {
@@ -260,7 +260,7 @@ TEST(AxisLoop, TheSeatIsTakenOverAndItsHolderIsTold) {
     EXPECT_EQ(refused->detail, gw::kSeatTakenOver);
 }
 
-/// Nobody takes over from the other side of the local/remote switch.
+/// No client takes over from the other side of the local/remote switch.
 TEST(AxisLoop, TakingOverKeepsToTheSideThatMayOperate) {
     Bench bench({.remote_input = 5});
     bench.run(10ms);
@@ -382,7 +382,7 @@ TEST(AxisLoop, KnowsTheMotorsValuesAndHowOldTheyAre) {
     EXPECT_GT(bench.now() - image.motor_contact, 1s);
 }
 
-/// The line is the sequence's and the persons': one register every 100 ms, and none when nobody asks.
+/// The line is for the sequence and the operators: one register every 100 ms, and none without a request.
 /// Another motor may answer next, or the same one after its power was off.
 TEST(AxisLoop, OfALostMotorNothingIsGood) {
     static constexpr base::Microseconds kLongest{20'000'000};

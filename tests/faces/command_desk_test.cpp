@@ -73,7 +73,7 @@ TEST(CommandDesk, TellsHowACommandEndedAndRings) {
     EXPECT_EQ(ended->result, Result::no_table);
 }
 
-/// 8 of one client wait at the most, and nobody else is kept out by them.
+/// 8 of one client wait at the most, and they block no other client.
 TEST(CommandDesk, IsBounded) {
     Desk desk;
     for (int i = 0; i < 8; ++i) EXPECT_TRUE(desk.one->submit(run()));

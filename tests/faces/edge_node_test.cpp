@@ -206,7 +206,7 @@ TEST(Attempts, TwoClientsOfOneNameTryEverMoreSeldomAndSaySo) {
     EXPECT_TRUE(attempts.is_due(now + 64s));
 }
 
-/// A command, and be it a stop, must not wait half a minute for a broker that was halted or started anew.
+/// A command, and be it a stop, must not wait half a minute for a broker that was halted or restarted.
 TEST(Attempts, ABrokerThatIsAwayIsAskedEveryFewSeconds) {
     const auto pauses = [](bool is_refused) {
         Attempts attempts("n");

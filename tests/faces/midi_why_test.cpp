@@ -1,4 +1,4 @@
-// Why a MIDI drive does not move, as the gateway that leads it tells.
+// Why a MIDI drive does not move, as reported by the gateway that controls it.
 #include "causes/midi_why.h"
 
 #include <gtest/gtest.h>

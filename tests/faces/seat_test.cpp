@@ -35,7 +35,7 @@ TEST(Seat, IsFreeWhenItsClientLeaves) {
     EXPECT_EQ(seat.take(kOther, kStart), Verdict::granted);
 }
 
-/// 10 s of silence unless set otherwise; a command begins the time anew.
+/// 10 s of silence unless set otherwise; a command restarts the time.
 TEST(Seat, IsFreeAfterSilence) {
     Seat seat;
     EXPECT_EQ(seat.take(kPerson, kStart), Verdict::granted);

@@ -102,8 +102,8 @@ std::vector<std::uint8_t> length_of(std::int32_t value) {
     return set_points::encode_request(SetPointBench::record(), Kind::change, {{0, value}});
 }
 
-/// Longer than a command may wait: what others ask is served meanwhile, and the end that is told is the real
-/// one.
+/// Longer than a command may wait: requests of other clients are served meanwhile, and the reported result is
+/// the real one.
 TEST(SetPointBook, ASlowStorageIsWaitedForBesideOtherCommands) {
     BookBench bench;
     static_cast<void>(bench.image());
@@ -132,7 +132,7 @@ TEST(SetPointBook, ASlowStorageIsWaitedForBesideOtherCommands) {
     EXPECT_EQ(set_point_wanted(bench.image(), 0), 70'000);
 }
 
-/// A stop does not undo what is being stored, and does not say that it did; what waits comes to nothing.
+/// A stop does not undo what is being stored, and does not report that it did; waiting requests are dropped.
 TEST(SetPointBook, AStopMeanwhileTellsTheTruth) {
     BookBench bench;
     static_cast<void>(bench.image());
@@ -182,7 +182,7 @@ TEST(SetPointBook, TheUsersPortAndFacesDoNotAnswerForEachOther) {
     EXPECT_EQ(set_point_wanted(bench.image(), 0), 80'000);
 }
 
-/// A client that is gone in the middle of its change blocks nobody, and the change is whole.
+/// A client that is gone in the middle of its change blocks no other client, and the change is complete.
 TEST(SetPointBook, AClientThatLeavesInTheMiddleLeavesAWholeChange) {
     BookBench bench;
     static_cast<void>(bench.image());

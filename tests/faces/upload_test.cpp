@@ -57,7 +57,7 @@ TEST(PanelUpload, StoresInPieces) {
 TEST(PanelUpload, StopsBeforeItMakesActive) {
     UploadBench bench(16, {.activate = true, .run = true});
     send_all(bench, 1);
-    bench.step();  // an image of before the commit may still say "stored" of the upload before
+    bench.step();  // an image of before the commit may still show "stored" for the upload before
     bench.stored(own::StorePhase::done);
     EXPECT_EQ(bench.step()->value, static_cast<std::uint32_t>(own::Command::stop));
     EXPECT_EQ(bench.step(Result::moving)->value, static_cast<std::uint32_t>(own::Command::activate));

@@ -1,4 +1,4 @@
-// What is told of a motion, by images and surveys written by hand.
+// The causes reported for a motion, with images and surveys written by hand.
 #include "faces/why_keeper.h"
 
 #include <gtest/gtest.h>

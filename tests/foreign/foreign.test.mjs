@@ -87,7 +87,7 @@ test("modbus-serial runs, stops and reads it", async (t) => {
   await until(() => status(1), "running again");
   await master.writeCoil(1, true);
   assert.equal(await status(4), true);
-  await assert.rejects(master.readInputRegisters(140, 1), { modbusCode: NOT_KNOWN }); // a MAC140 tells no temperature
+  await assert.rejects(master.readInputRegisters(140, 1), { modbusCode: NOT_KNOWN }); // a MAC140 does not report a temperature
 });
 
 test("modbus-serial reads, changes and loads set-points", async (t) => {

@@ -20,7 +20,7 @@ void check_round_trips(std::uint8_t byte) {
     require(encode_status(decode_status(byte)) == byte);
 }
 
-/// Any fields, in range or not, give a byte that decodes to what that byte says.
+/// Any fields, in range or not, give a byte that decodes to the same command.
 void check_any_fields(std::uint8_t a, std::uint8_t b, std::uint8_t c) {
     const Command command{static_cast<Mode>(a % 4), static_cast<Group>(a / 4 % 6), b, c};
     const std::uint8_t byte = encode_command(command);

@@ -86,7 +86,7 @@ void start(sim::SimStorage& storage, bool is_genuine) {
     require(chosen->slot == 0 || is_genuine);
 }
 
-/// What somebody else wrote into the other slot, whose first byte says which marks.
+/// Content of unknown origin in the other slot; its first byte selects the marks.
 void other_slot(Input input) {
     if (input.empty()) return;
     sim::SimStorage storage = board();

@@ -32,7 +32,7 @@ class Module {
     sim::Time now{0};
 };
 
-/// Frames, since nobody guesses sums: index and four bytes of data, or raw bytes.
+/// Frames, since random bytes rarely have the right checksum: index and four bytes of data, or raw bytes.
 void speak_v24(Bytes six, sim::MidiV24End& end) {
     if (six[0] % 4 == 0) {
         for (const std::uint8_t byte : six) end.receive(byte, byte == 0x77);

@@ -1,6 +1,5 @@
-// Any stream is messages of an editor, or is told to be none; any text is a request of the panel's page, or
-// is refused with a reason; any stream at the metrics' port asks for them, or gets an answer that says what
-// is wrong.
+// Any stream is parsed as messages of an editor, or rejected; any text is a request of the panel's page, or
+// is refused with a reason; any stream at the metrics' port asks for them, or is answered with the error.
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -43,7 +42,7 @@ void panel_request(std::string_view text) {
     require(!asked.command || asked.error.empty());
 }
 
-/// In pieces as long as its first byte says.
+/// In pieces of the length in its first byte.
 void http(std::string_view text) {
     if (text.empty()) return;
     const std::size_t piece = 1 + static_cast<std::uint8_t>(text.front());

@@ -34,7 +34,7 @@ void put(sim::SimStorage& storage, std::uint32_t address, std::span<const std::u
     }
 }
 
-/// Two slots that somebody else wrote: with an even first byte just these bytes, else a whole slot with this
+/// Two slots of unknown origin: with an even first byte just these bytes, else a whole slot with this
 /// content.
 sim::SimStorage flash_with(std::span<const std::uint8_t> bytes, const store::Area& area, store::Kind kind) {
     sim::SimStorage storage(kGeometry);

@@ -146,8 +146,8 @@ class Run {
                                     gateway::StartCause::power_up};
 };
 
-/// The input's bytes are messages in short, since nobody guesses inverses: kind, register, four bytes of
-/// value; or raw bytes.
+/// The input's bytes are messages in short, since random bytes rarely contain the inverses: kind, register,
+/// four bytes of value; or raw bytes.
 void act(Run& run, std::span<const std::uint8_t> six) {
     const std::uint8_t address = six[0] % 3 == 0 ? std::uint8_t{254} : reg::kDefaultAddress;
     const auto put = [&run](auto&& encoded) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A MIDI module says anything, at any time, among any orders: the driver stays bounded, gives no motion
+// A MIDI module sends any bytes, at any time, among any orders: the driver stays bounded, gives no motion
 // command while the link does not deliver, shows ERROR from a loss until "reset error", and settles once the
 // line is silent.
 
@@ -37,7 +37,7 @@ class Arrivals {
     std::deque<Item> coming_, there_;
 };
 
-/// A Wire has the driver's link and says what the module does:
+/// A Wire has the driver's link and controls the module:
 ///   motor::MidiLink& link(); const motor::Motor* driver
 ///   void answer(std::uint32_t value): as a module would answer what was asked last
 ///   void act(std::uint8_t what, std::uint8_t value): any of its own kinds of trouble

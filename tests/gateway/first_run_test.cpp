@@ -1,5 +1,5 @@
-// A sequence starts by itself only from a store in which it stands that somebody has commanded run, and that
-// stands there before the first scan of that run.
+// A sequence starts by itself only from a store that records a commanded run; the record is written before
+// the first scan of that run.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -38,7 +38,7 @@ struct FirstRun : testing::Test, PortBench {
         ASSERT_TRUE(command(Command::run));
         ASSERT_TRUE(command(Command::stop));
     }
-    /// The command, and what it waits for, without the client that hears its answer.
+    /// The command, and what it waits for, without the client that receives its answer.
     void ask_to_run() {
         ask({.kind = mactalk::Kind::write,
              .address = reg::kDefaultAddress,

@@ -1,4 +1,4 @@
-// REGISTERS.md says what the map's rows say.
+// REGISTERS.md agrees with the map's rows.
 #include <gtest/gtest.h>
 
 #include <algorithm>

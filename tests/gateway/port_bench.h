@@ -159,7 +159,7 @@ struct PortBench {
     InstantLine line;
     InstantLine motor_line;
     StartCause cause = StartCause::power_up;  ///< of the next start()
-    bool keeps_mark = false;                  ///< that somebody has commanded run, as boards without Linux do
+    bool keeps_mark = false;                  ///< that run has been commanded, as boards without Linux do
     bool wired = false;
     bool only_when_due = false;
 };

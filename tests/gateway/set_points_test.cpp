@@ -354,7 +354,7 @@ TEST_F(SetPointsTest, ARefusingStoreLeavesTheOldValues) {
     EXPECT_EQ(in_force(), (Three{80000, 1000, 500}));
 }
 
-/// Two ports of one gateway, and of what each asks for the real end.
+/// Two ports of one gateway; each gets the real result of its request.
 struct TwoWriters : SetPointsTest {
     struct Ended {
         PendingResult one;
@@ -509,7 +509,7 @@ TEST_F(TwoWriters, ARequestKnowsItsEnd) {
     EXPECT_EQ(ended_of(77), 0U);
 }
 
-/// What is being stored is stored before the gateway starts anew.
+/// What is being stored is stored before the gateway restarts.
 TEST_F(TwoWriters, AResetWaitsForTheEnd) {
     ASSERT_TRUE(upload_and_activate(content()));
     flash.work_for(100);

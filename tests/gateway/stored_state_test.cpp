@@ -1,5 +1,5 @@
 // Whatever happens to the bytes that are stored: what starts by itself is what was stored last, under the
-// settings that were stored last, and otherwise it is stopped and says why.
+// settings that were stored last, and otherwise it is stopped and gives the reason.
 #include <gtest/gtest.h>
 
 #include "base/crc32.h"

@@ -192,7 +192,7 @@ TEST(Client, AStopThatIsNotConfirmedSaysThatTheMachineMayStillBeRunning) {
     }
 }
 
-// The sequence does not run, and somebody's writes have set the motor in motion.
+// The sequence does not run, and writes of a client have set the motor in motion.
 TEST(Client, AStopOfAStoppedSequenceIsSentUntilItHasArrived) {
     for (const Command command : {Command::stop, Command::safe}) {
         Bench bench;
@@ -301,7 +301,7 @@ class DisturbedWire final : public host::ByteClient {
 };
 
 struct Disturbed : testing::Test {
-    /// How long it takes until it says that it is not confirmed.
+    /// The time until it reports that the stop is not confirmed.
     base::Microseconds time_until_told() {
         const base::Instant begun = bench.wire.now();
         EXPECT_THROW(stop_machine(stopper, Command::stop), NotConfirmed);

@@ -200,7 +200,7 @@ TEST(NanoctlSetPoints, WhatALoadedRecipeDoesNotGiveIsNamed) {
         "one, it takes 1 parts to 5000 parts\n");
 }
 
-/// What a storage takes longer than any answer is waited for: its real end is told.
+/// What a storage takes longer than any answer is waited for: its real result is reported.
 TEST(NanoctlSetPoints, ASlowStorageIsWaitedFor) {
     SetPointClient bench;
     bench.unit.storage.work_for(10'000);

@@ -1,4 +1,4 @@
-// A roll-out without a broker: gateways that obey, fail, are silent, or are ordered by somebody else.
+// A roll-out without a broker: gateways that obey, fail, are silent, or get an order from another sender.
 #include "nanofleet/roll_out.h"
 
 #include <fmt/format.h>

@@ -144,7 +144,7 @@ TEST(OrderedRestart, WhoStopsTheAxisMeanwhileKeepsItStopped) {
     }
 }
 
-/// The motor does not come to rest in time; later nobody expects a start.
+/// The motor does not come to rest in time; a later start would be unexpected.
 TEST(OrderedRestart, WhatComesToNothingRunsNothingLater) {
     Bench bench(Activation::restart);
     bench.port.board.motor_registers[registers::V_IST] = 500;

@@ -30,7 +30,7 @@ struct Axis {
     void read(MotorItem item, std::int32_t value, base::Instant now) {
         image.motor[static_cast<std::size_t>(item)] = {true, value, now};
     }
-    /// The motor's values of the message after one that told `before`.
+    /// The motor's values of the message after one that contained `before`.
     Json values(const faces::AxisImage* before, base::Instant now) const {
         const std::string text = feed.image_text(before, true, now);
         return text.empty() ? Json() : Json::parse(text).value("m", Json());

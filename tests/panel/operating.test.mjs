@@ -297,7 +297,7 @@ test("why, the trend's CSV, and reset error", () =>
     await operate(page, machine.token);
     await page.click("#do-stop");
     await state(page, "stopped");
-    await hasText(page, "#why", "gateway_safe (11)"); // as every other face tells it
+    await hasText(page, "#why", "gateway_safe (11)"); // as every other interface shows it
     await hasText(page, "#why", "“Run” starts it.");
     assert.doesNotMatch(await textOf(page, "#why"), /nanoctl/);
     await page.click("#do-reset-error");

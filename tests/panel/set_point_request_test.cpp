@@ -1,4 +1,4 @@
-// What clients ask of set-points, as bytes for the gateway; the bytes are checked as REGISTERS.md has them.
+// Clients' requests on set-points, as bytes for the gateway; the bytes are checked as REGISTERS.md has them.
 #include "set_point_request.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Set-points and recipes on the page: shown to all, changed together, refused whole, kept, and told to every client.
+// Set-points and recipes on the page: shown to all, changed together, refused whole, kept, and sent to every client.
 import assert from "node:assert/strict";
 import { execFile, execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";

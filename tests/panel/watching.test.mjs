@@ -1,4 +1,4 @@
-// The picture follows the sequence, in all examples; what the page tells; old data; lost connections.
+// The picture follows the sequence, in all examples; what the page shows; old data; lost connections.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -72,7 +72,7 @@ test("hover and focus tell a step's terms in the program's names and units, and 
 
 for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((n) => n.replace(".seq", ""))) {
   test(`the picture follows ${name} through its scenario`, async () => {
-    // Its own scenario without an end, in real time; the wire of another client tells what to expect.
+    // Its own scenario without an end, in real time; the messages to another client give the expected values.
     const scenario = readFileSync(join(examples, `${name}.scn`), "utf8").replace(/^\s*end .*$/gm, "").replace(/^.*\bat end\b.*$/gm, "");
     await withMachine(join(examples, `${name}.seq`), { scenario }, async (machine) => {
       const client = new Client(machine.url);
@@ -80,13 +80,13 @@ for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((
       const page = await openPage(machine.url);
       await painted(page);
       const steps = () => client.messages.filter((m) => m.t === "image" && m.r?.STEP !== undefined).map((m) => m.r.STEP);
-      // Three changes that the wire told, or ten seconds of a program that rests.
+      // Three changes in those messages, or ten seconds of a program that rests.
       const since = client.messages.length;
       await Promise.race([
         client.until(() => client.messages.slice(since).filter((m) => m.t === "image" && m.r?.STEP !== undefined).length >= 3),
         page.waitForTimeout(8000),
       ]);
-      // A step may be shorter than a frame: at some moment the page shows the last one that the wire told.
+      // A step may be shorter than a frame: at some moment the page shows the last one of those messages.
       const end = Date.now() + 30_000;
       while (Number(await page.evaluate(() => document.body.dataset.step)) !== steps().at(-1)) assert.ok(Date.now() < end, "it never shows the active step");
       const program = client.messages.find((m) => m.t === "program");
@@ -217,7 +217,7 @@ test("60 steps: laid out without boxes that overlap, found by name, followed", a
     assert.equal(await outside(), 0, "all of it is seen");
     await page.setViewportSize({ width: 900, height: 900 });
     await page.waitForFunction((width) => document.getElementById("drawing").clientWidth < width, 700);
-    await page.waitForTimeout(300); // longer than a frame: the size is told after it
+    await page.waitForTimeout(300); // longer than a frame: the size is reported after it
     assert.equal(await outside(), 0, "in another size too");
     await page.setViewportSize({ width: 1440, height: 1000 });
     await page.fill("#search", "S42");
