@@ -5,7 +5,7 @@
 
 namespace nplc::bench {
 
-/// What a benchmark's main returns: an exception is told in a line.
+/// What a benchmark's main returns: an exception is printed in one line.
 inline int guarded(const char* name, int (*run)(int, char**), int argc, char** argv) {
     try {
         return run(argc, argv);

@@ -23,7 +23,7 @@ SETTLED = 8  # s: the first look at all of the motor's registers
 
 
 class Attack:
-    """Processes that do it again and again until the end. They only get what nobody else wants of the processors: a client's own
+    """Processes that do it again and again until the end. They run at the lowest priority: a client's own
     processor is elsewhere, and here it would keep the kernel's worker from the bytes of the motor's line."""
 
     def __init__(self, what, port, url):
@@ -71,7 +71,7 @@ def noise(port, _):
 
 
 def never_read(port, _):
-    """Requests whose answers nobody takes."""
+    """Requests whose answers are never read."""
     with connected(port) as line:
         line.settimeout(1)
         while True:

@@ -1,5 +1,5 @@
 // From a request to its answer over TCP: two Modbus servers in turn, a block of requests each, so that what
-// else the machine does hits both. `serve` is libmodbus's own bare server, which knows a table of numbers and
+// else the machine does hits both. `serve` is libmodbus's own bare server, which has a table of numbers and
 // nothing else.
 #include <arpa/inet.h>
 #include <modbus/modbus.h>

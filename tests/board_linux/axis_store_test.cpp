@@ -326,7 +326,7 @@ TEST_F(AxisStoreTest, WhatCannotBeWrittenIsNotGiven) {
     run.end();
 }
 
-/// A second by the time that give_permission() is told; the disk itself takes as long as the test wants.
+/// A second of the time that give_permission() is given; the disk itself takes as long as the test wants.
 TEST_F(AxisStoreTest, ADiskThatTakesLongIsNotWaitedForForEver) {
     Run run = start();
     disk.holds = true;

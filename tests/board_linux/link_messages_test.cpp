@@ -1,4 +1,4 @@
-// What the journal says of a link that is lost again and again.
+// The journal's messages on a link that is lost again and again.
 #include "link_messages.h"
 
 #include <gtest/gtest.h>

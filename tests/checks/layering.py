@@ -121,7 +121,7 @@ MODULES = [
     Module("tools/sequence/diagnostics", "diagnostics", ("seqc", "host")),
     Module("tools/sequence/language", "language", ("seqc", "diagnostics", "host", "text", "whole_files")),
     Module("tools/sequence/symbols", "symbols", ("seqc", "language", "table", "base", "host", "protocol", "registers", "sequencer", "set_points")),
-    # The one model of a step in every case: nobody else reads a term's bytes.
+    # The one model of a step in every case: nothing else reads a term's bytes.
     Module("tools/sequence/table", "table", ("base", "sequencer", "protocol", "registers")),
     Module("tools/sequence/analysis", "analysis", ("base", "sequencer", "protocol", "registers", "table")),
     Module("tools/sequence/compiler", "compiler",
@@ -198,7 +198,7 @@ CLOCK = re.compile(
     r"\b(?:\w+_clock\s*::\s*now|(?:std\s*::\s*)?chrono\s*::\s*\w+_clock|(?:steady|system|high_resolution)_clock"
     r"|clock_gettime|gettimeofday|timespec_get|std\s*::\s*time\s*\()"
 )
-# Only tools/sequence/table says what the bits of a command or a term mean; the simulated motor has its own idea of commands.
+# Only tools/sequence/table defines what the bits of a command or a term mean; the simulated motor decodes commands by itself.
 BITS_ARE_FOR = "tools/sequence/table/"
 BITS = (
     (("tools/sequence/",), re.compile(r"\bfastmac::|protocol/fastmac\.h"), "table/commands.h"),

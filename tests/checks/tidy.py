@@ -75,7 +75,7 @@ def tidy(root, build, checks, path, *more):
 
 
 def tidy_together(root, build, source, group):
-    """What is found is found again in each file by itself, to be told with its own place."""
+    """Findings are repeated on each file alone, for the right file and line."""
     checks = CHECKS["tidy"]
     folder = os.path.dirname(source)
     if len(group) > 1 and not tidy(root, folder, f"{checks},-{OF_INCLUDING}", source, FILTER):

@@ -8,7 +8,7 @@
 #include "macreg/axis_file.h"
 #include "plant_file/plant_file.h"
 
-/// What recordings do not tell is named; what is told becomes a file.
+/// What cannot be determined from recordings is named; what can becomes a file.
 namespace nplc::macreg {
 namespace {
 

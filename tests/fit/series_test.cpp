@@ -6,7 +6,7 @@
 
 #include "hidden_axis.h"
 
-/// Recordings that cannot be fitted get one message that says why.
+/// Recordings that cannot be fitted get one message with the reason.
 namespace nplc::macreg {
 namespace {
 
@@ -99,7 +99,7 @@ TEST(Series, ColumnsThatAreMissingOrWrongAreNamed) {
     refused(bad, "P_IST goes on by");
 }
 
-// NaN, a torn line: the reader of recordings says where. Five lines of comment and one of names stand before
+// NaN, a torn line: the message gives the place. Five lines of comment and one of names stand before
 // the rows.
 TEST(Series, CutAndDamagedFilesAreToldWithTheirLine) {
     const std::string text = to_csv(good());

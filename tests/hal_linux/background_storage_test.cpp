@@ -18,7 +18,7 @@ using store::Bytes;
 constexpr ports::StorageGeometry kGeometry{
     .size = 8 * 4096, .erase_block = 4096, .program_page = 256, .program_unit = 1};
 
-/// Does what it is told when it is allowed to, as a slow card does.
+/// Completes each operation only when the test permits it, as a slow card does.
 class SlowStorage final : public ports::Storage {
   public:
     ports::StorageGeometry geometry() const override { return memory.geometry(); }

@@ -35,7 +35,7 @@ TEST(TickTime, GoesOnWhenTheMillisecondsWrap) {
     EXPECT_EQ(time.at(7, 5), Instant(Microseconds(4'294'967'303'005)));
 }
 
-/// The counter began anew and its interrupt has not come yet: the sum is a millisecond short.
+/// The counter has wrapped and its interrupt is still pending: the sum is a millisecond short.
 TEST(TickTime, NeverRunsBack) {
     TickTime time;
     EXPECT_EQ(time.at(5, 999), Instant(Microseconds(5'999)));

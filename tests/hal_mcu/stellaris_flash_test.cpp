@@ -1,6 +1,6 @@
 // The Stellaris flash driver on a model of its chip, written from the data sheet (LM3S6965, "Internal
 // Memory"): a command counts only with its key, takes a while, and is not disturbed meanwhile; a word is
-// programmed to the AND of old and new; what is protected stays, and ARIS tells.
+// programmed to the AND of old and new; protected blocks stay unchanged, and ARIS is set.
 
 #include "hal_mcu/stellaris/flash.h"
 

@@ -1,5 +1,5 @@
 // A sequence that was held in mid-motion and goes on does the same steps and ends at the same places as one
-// that nobody held.
+// that was not held.
 #include <gtest/gtest.h>
 
 #include <unistd.h>

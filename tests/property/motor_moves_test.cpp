@@ -18,7 +18,7 @@ using enum registers::Number;
 constexpr int kMoves = NPLC_MOTOR_RUNS;
 constexpr unsigned kSeed = 1;
 constexpr int kSlowest = 60'000;  // samples of a move
-constexpr int kSettling = 3000;   // friction lets the last count wait: the README says how long
+constexpr int kSettling = 3000;   // friction lets the last count wait: for how long: README
 
 using Random = std::mt19937;
 
@@ -60,7 +60,7 @@ void ask(MacMotor& motor, const Move& move) {
 struct Scene {
     bool big;
     int kvout;
-    int percent;  // of the inertia that KVOUT says
+    int percent;  // of the inertia in KVOUT
     int friction;
     Servo::Depth depth = Servo::Depth::current_loop;
 };

@@ -31,7 +31,7 @@ TEST(CommandReceiver, ToggleIsZeroAtPowerUp) {
     EXPECT_EQ(receiver.receive(0xE2), Accepted(0x62));
 }
 
-// The start of a master that does not know the toggle: a NOP in each polarity brings both ends in step.
+// The start of a master without the toggle's state: a NOP in each polarity brings both ends in step.
 TEST(CommandReceiver, NopInEachPolarityBringsInStep) {
     for (const bool before : {false, true}) {
         CommandReceiver receiver;

@@ -93,7 +93,7 @@ struct WriteResult {
     int second = 0;   // the second message arrives as it was sent
     int first = 0;    // so does the first, for all its lost byte
     int nothing = 0;  // nothing arrives
-    int wrong = 0;    // something arrives that nobody sent
+    int wrong = 0;    // a message arrives that was not sent
 };
 
 enum class Fault { lost, damaged };

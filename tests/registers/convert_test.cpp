@@ -138,7 +138,7 @@ TEST(Parse, Refuses) {
         EXPECT_EQ(read(kSmall, row.name, row.text).error, row.error)
             << row.name << " := '" << row.text << "'";
     }
-    EXPECT_EQ(read(kSmall, "V_SOLL", "40000").raw, 40'000);  // so that a message can tell
+    EXPECT_EQ(read(kSmall, "V_SOLL", "40000").raw, 40'000);  // for the message
 }
 
 TEST(Write, ManualsExamples) {

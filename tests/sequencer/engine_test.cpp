@@ -463,7 +463,7 @@ TEST(Engine, AnyEffectIsAChangeOrAnOrder) {
     EXPECT_TRUE((ScanEffect{.sent = true}.any()));
 }
 
-// Fill three boxes: IN0 starts; each IN_POS counts one down and waits 20 ms; at 0 output 3 says done.
+// Fill three boxes: IN0 starts; each IN_POS counts one down and waits 20 ms; at 0 output 3 signals done.
 TEST(Engine, WalkThroughFillAndCount) {
     Bench bench({
         {0xC0, 0x01, 0x01, 0x41, 0x80, 0x00, 0x03, 0x00},  // 0: IN0 -> 1, counter 3

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""OpenSSL signs random messages with random keys; signature_judge says which signatures are good.
+"""OpenSSL signs random messages with random keys; signature_judge reports which signatures are good.
 
 usage: openssl_test.py SIGNATURE_JUDGE [SEED]
 """
