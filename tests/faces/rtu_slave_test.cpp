@@ -1,0 +1,172 @@
+// The axes as slaves among others on a serial line, in virtual time: what is answered, and when nothing is.
+#include "rtu_slave.h"
+
+#include <gtest/gtest.h>
+
+#include "faces/axis_loop.h"
+#include "port_bench.h"
+
+namespace nplc::modbus {
+namespace {
+
+namespace gw = registers::gateway;
+using namespace std::chrono_literals;
+using Bytes = std::vector<std::uint8_t>;
+
+const gateway::Bytes kWaits{{0xC0, 0, 0, 0x01, 0x80, 0, 0, 0}, {0xC1, 0, 0, 0x3E, 0x80, 1, 0, 0}};
+constexpr std::uint8_t kUnit = 10;
+const Bytes kAskStatus{4, 0, 1, 0, 1};
+const Bytes kOrderStop{5, 0, 1, 0xFF, 0};
+/// 3.5 characters of 11 bits at 19200 baud are 2005 us, and an adapter holds characters back for 20 ms.
+constexpr base::Microseconds kPause = 23ms;
+
+Bytes sealed(std::uint8_t unit, const Bytes& pdu) {
+    const protocol::modbus::RtuFrame made(unit, pdu);
+    return {made.bytes().begin(), made.bytes().end()};
+}
+
+struct RtuBench {
+    RtuBench() {
+        EXPECT_TRUE(port.upload_and_activate(kWaits));
+        slave.join(bell, now());
+        run(20ms);
+        EXPECT_TRUE(port.gateway->run());
+        run(20ms);
+    }
+
+    base::Instant now() const { return port.board.now; }
+    bool runs() const { return port.gateway->run_state() != gw::RunState::stopped; }
+    /// What the slave sends meanwhile.
+    Bytes run(base::Microseconds time, bool axis_lives = true) {
+        Bytes sent;
+        for (const auto end = now() + time; now() < end;) {
+            port.poll();
+            if (axis_lives) loop.poll(*port.controller, now(), now());
+            slave.take({}, now(), now());
+            slave.poll(now());
+            const auto bytes = slave.out(now());
+            sent.insert(sent.end(), bytes.begin(), bytes.end());
+            if (!bytes.empty()) slave.note_sent(bytes.size());
+        }
+        return sent;
+    }
+    void hear(const Bytes& bytes) {
+        std::vector<ports::ReceivedByte> all;
+        for (const std::uint8_t byte : bytes) all.push_back({byte, false});
+        slave.take(all, now(), now());
+    }
+    /// A request that is not answered yet: the axis leaves no image, which is waited for 100 ms.
+    void ask_in_vain(const Bytes& pdu) {
+        run(60ms, false);
+        hear(sealed(kUnit, pdu));
+        EXPECT_EQ(run(40ms, false), Bytes{});
+    }
+
+    gateway::PortBench port;
+    faces::AxisModel model{"x"};
+    faces::AxisLoop loop{model, {}};
+    faces::AxisModel* axes[1] = {&model};
+    faces::Bell bell{[] {}};
+    RtuSlave slave{{.unit = kUnit}, {axes, axes + 1}};
+};
+
+TEST(RtuSlave, AnswersAfterTheSilence) {
+    RtuBench line;
+    line.hear(sealed(kUnit, kAskStatus));
+    const auto asked = line.now();
+    while (line.slave.out(line.now()).empty()) {
+        ASSERT_LT(line.now() - asked, 1s);
+        line.port.poll();
+        line.loop.poll(*line.port.controller, line.now(), line.now());
+        line.slave.poll(line.now());
+    }
+    EXPECT_GE(line.now() - asked, 2'005us);
+    const auto out = line.slave.out(line.now());
+    EXPECT_EQ(Bytes(out.begin(), out.begin() + 3), (Bytes{kUnit, 4, 2}));
+}
+
+TEST(RtuSlave, ALateAnswerIsSentIfTheLineIsSilent) {
+    RtuBench line;
+    line.ask_in_vain(kAskStatus);
+    const Bytes answer = line.run(500ms);
+    ASSERT_FALSE(answer.empty());
+    EXPECT_EQ(answer[0], kUnit);
+}
+
+TEST(RtuSlave, ALateAnswerStaysOutOfAnothersTurn) {
+    Bytes damaged = sealed(9, kAskStatus);
+    damaged[3] ^= 1U;
+    const Bytes half(damaged.begin(), damaged.begin() + 3);
+    for (const Bytes& next :
+         {sealed(9, kAskStatus), sealed(9, {0x2B, 0x0E, 1, 0}), sealed(0, {5, 0, 7, 0xFF, 0}),
+          sealed(0, kOrderStop), damaged, half, Bytes{9}}) {
+        for (const Bytes& request : {kAskStatus, Bytes{6, 0, 2, 0x20, 0}, kOrderStop}) {
+            RtuBench line;
+            line.ask_in_vain(request);
+            line.hear(next);
+            EXPECT_EQ(line.run(2s, false), Bytes{}) << "an axis that leaves no image";
+            EXPECT_EQ(line.run(2s), Bytes{});
+            line.hear(sealed(kUnit, kAskStatus));
+            EXPECT_FALSE(line.run(500ms).empty()) << "the next one";
+        }
+    }
+}
+
+/// One that is ready, and waits for the silence.
+TEST(RtuSlave, AnAnswerThatIsReadyStaysOutOfAnothersTurn) {
+    RtuBench line;
+    static_cast<void>(line.model.image(line.now()));
+    line.run(20ms);
+    line.hear(sealed(kUnit, kAskStatus));
+    line.slave.poll(line.now());
+    EXPECT_TRUE(line.slave.out(line.now()).empty());
+    EXPECT_FALSE(line.slave.out(line.now() + 3ms).empty());
+    line.hear(sealed(9, kAskStatus));
+    EXPECT_TRUE(line.slave.out(line.now() + 3ms).empty());
+    EXPECT_EQ(line.run(1s), Bytes{});
+}
+
+TEST(RtuSlave, ARequestWithoutAnAnswerIsCarriedOut) {
+    RtuBench line;
+    line.ask_in_vain(kOrderStop);
+    EXPECT_TRUE(line.runs());
+    line.hear(sealed(9, kAskStatus));
+    EXPECT_EQ(line.run(2s), Bytes{});
+    EXPECT_FALSE(line.runs());
+}
+
+/// The master waits for a motor's stop, no longer than for anything else.
+TEST(RtuSlave, AnOrderUnderWayIsNotAnsweredIntoAnothersTurn) {
+    RtuBench line;
+    line.hear(sealed(kUnit, kOrderStop));
+    line.slave.poll(line.now());
+    EXPECT_EQ(line.run(kPause + 20ms, false), Bytes{});
+    line.hear(sealed(9, kAskStatus));
+    EXPECT_EQ(line.run(3s), Bytes{});
+    EXPECT_FALSE(line.runs());
+}
+
+/// The master's driver is switched off, and what comes of it is no message.
+TEST(RtuSlave, ACharacterDirectlyBehindTheRequestCostsNoAnswer) {
+    RtuBench line;
+    line.hear(sealed(kUnit, kAskStatus));
+    line.run(1ms);
+    line.hear({0});
+    const auto heard = line.now();
+    EXPECT_EQ(line.run(20ms), Bytes{}) << "it may be the begin of a message";
+    EXPECT_FALSE(line.run(heard + 200ms - line.now()).empty());
+}
+
+TEST(RtuSlave, OthersTalkIsPassedOver) {
+    RtuBench line;
+    for (const Bytes& one :
+         {sealed(9, {3, 0, 0, 0, 2}), sealed(9, {3, 4, 1, 2, 3, 4}), sealed(12, kAskStatus)}) {
+        line.hear(one);
+        EXPECT_EQ(line.run(1ms), Bytes{});
+    }
+    line.hear(sealed(kUnit, kAskStatus));
+    EXPECT_FALSE(line.run(500ms).empty());
+}
+
+}  // namespace
+}  // namespace nplc::modbus
