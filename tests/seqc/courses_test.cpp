@@ -75,6 +75,36 @@ TEST_F(Courses, AForgottenPresetIsFoundBehindATimer) {
     }
 }
 
+/// A lamp that shows the counter in a step that ends with the condition; Idle sets the counter.
+std::string with_a_lamp(const std::string& end) {
+    return "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"
+           "STEP Idle: ENTRY COUNTER := 2; IF IN0 THEN NEXT := Work; END_IF END_STEP\n"
+           "STEP Work: OUT OUT0 WHEN COUNTER.Q; IF " +
+           end +
+           " THEN COUNT_DOWN; NEXT := Rest; END_IF END_STEP\n"
+           "STEP Rest: IF IN2 THEN NEXT := Work; END_IF END_STEP\n"
+           "STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(IN3) THEN RESET_ERROR; NEXT := Idle; END_IF "
+           "END_STEP\nEND_PROGRAM\n";
+}
+
+TEST_F(Courses, ACopyOfAStepIsNotAnotherStepThatTheCounterLedTo) {
+    for (const char* end :
+         {"R_TRIG(IN1)", "F_TRIG(IN1)", "R_TRIG(IN1) OR R_TRIG(IN4)", "IN1 AND NOT IN4 FOR T#50ms"})
+        EXPECT_EQ(found_in(with_a_lamp(end)), std::set<std::string>{}) << end;
+}
+
+TEST_F(Courses, ACounterUsedUpByAnotherStepIsFoundBehindCopies) {
+    EXPECT_EQ(found_in("PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"
+                       "STEP Idle: ENTRY COUNTER := 2; IF IN0 THEN NEXT := Work; END_IF END_STEP\n"
+                       "STEP Work: IF COUNTER.Q THEN NEXT := Rest; ELSIF R_TRIG(IN1) THEN EVERY_SCAN "
+                       "COUNT_DOWN; END_IF END_STEP\n"
+                       "STEP Rest: IF COUNTER.Q AND R_TRIG(IN2) THEN NEXT := Work; END_IF END_STEP\n"
+                       "STEP Fault: OWN ERROR; IF ANY ERROR AND R_TRIG(IN3) THEN RESET_ERROR; NEXT := Idle; "
+                       "END_IF END_STEP\nEND_PROGRAM\n")
+                  .count("V007"),
+              1U);
+}
+
 TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     write("p.seq",
           "PROGRAM P\nMOTOR MAC140;\n"

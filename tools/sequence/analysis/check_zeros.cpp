@@ -14,10 +14,14 @@ namespace {
 struct Use {
     ImageSet decided;     ///< images with which the zero decides the scan's effect
     bool sets = false;    ///< the timer or the counter
-    bool leaves = false;  ///< the step
+    bool leaves = false;  ///< the step, not only one of its copies
 };
 
-std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity, bool timer) {
+std::vector<Use> uses_of(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
+    const Machine& machine = subject.explorer.machine();
+    const auto origin = [&](std::uint8_t step) {
+        return step <= sequencer::kLastStep ? subject.names.copy_of[step].value_or(step) : step;
+    };
     std::vector<Use> uses;
     for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
         for (unsigned zeros = 0; zeros < 4; ++zeros) {
@@ -26,7 +30,7 @@ std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity,
             for (const Group& group : machine.groups(step, timer_zero, counter_zero)) {
                 Use& use = uses.emplace_back();
                 use.sets = timer ? group.outcome.timer != 0 : group.outcome.sets_counter();
-                use.leaves = group.outcome.next != step;
+                use.leaves = origin(group.outcome.next) != origin(step);
                 if (timer ? timer_zero : counter_zero) {
                     use.decided = group.images & (timer ? sensitivity.to_timer(step, counter_zero)
                                                         : sensitivity.to_counter(step, timer_zero));
@@ -40,7 +44,7 @@ std::vector<Use> uses_of(const Machine& machine, const Sensitivity& sensitivity,
 /// V007: a zero that a step waits for although it was never set, or has already been used by another step.
 std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
     const Explorer& explorer = subject.explorer;
-    const std::vector<Use> uses = uses_of(explorer.machine(), sensitivity, timer);
+    const std::vector<Use> uses = uses_of(subject, sensitivity, timer);
     std::vector<bool> makes_stale;
     for (const Use& use : uses) makes_stale.push_back(use.leaves && !use.sets && use.decided.any());
     // Not set: as at power-up, and after a scan in which its zero led to another step
