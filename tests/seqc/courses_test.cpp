@@ -105,6 +105,35 @@ TEST_F(Courses, ACounterUsedUpByAnotherStepIsFoundBehindCopies) {
               1U);
 }
 
+/// A move into Go, whose rest is given; Back awaits the end of its own move.
+std::string with_a_move(const std::string& rest) {
+    return "PROGRAM P\nMOTOR MAC140;\nVAR_MOTOR A AT P1 := 0 rev; B AT P2 := 5 rev; Fast AT V1 := 300 rpm; "
+           "Soft AT A1 := 10000 rpm/s; END_VAR\nON ERROR NEXT := Fault;\n"
+           "POWER_UP INIT(Fast, Soft); NEXT := Idle; END_POWER_UP\n"
+           "STEP Idle: IF R_TRIG(IN0) THEN NEXT := Go; END_IF END_STEP\n"
+           "STEP Go: ENTRY POSITION(B); " +
+           rest +
+           " END_STEP\nSTEP Back: ENTRY POSITION(A); IF INPOS WITHIN T#4s THEN NEXT := Idle; ELSE NEXT := "
+           "Fault; END_IF END_STEP\n"
+           "STEP Fault: OWN ERROR; ENTRY STOP; IF ANY ERROR AND R_TRIG(IN2) THEN RESET_ERROR; NEXT := "
+           "POWER_UP; END_IF END_STEP\nEND_PROGRAM\n";
+}
+
+TEST_F(Courses, ATimerThatOnlyLimitsAStepAwaitsNoEndOfAMove) {
+    for (const char* rest :
+         {"IF NOT IN1 THEN NEXT := Back; END_IF",
+          "IF NOT IN1 WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF",
+          "IF R_TRIG(IN1) WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF",
+          "OUT OUT0 BLINKING T#500ms; IF NOT IN1 THEN NEXT := Back; END_IF",
+          "OUT OUT0 BLINKING T#500ms; IF NOT IN1 WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF"})
+        EXPECT_EQ(found_in(with_a_move(rest)), std::set<std::string>{"V009"}) << rest;
+    for (const char* rest :
+         {"ENTRY TIMER := T#2s; IF TIMER.Q THEN NEXT := Back; END_IF",
+          "IF INPOS WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF",
+          "OUT OUT0 BLINKING T#500ms; IF INPOS WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF"})
+        EXPECT_EQ(found_in(with_a_move(rest)), std::set<std::string>{}) << rest;
+}
+
 TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     write("p.seq",
           "PROGRAM P\nMOTOR MAC140;\n"

@@ -153,6 +153,13 @@ void name_origins(const ast::Program& program, const Scope& scope, Compilation& 
     }
 }
 
+void note_limits(const Plan& plan, Compilation& result) {
+    for (const StepPlan& step : plan.steps) {
+        const bool is_limit = step.memory.limit != 0 || step.memory.blink_for != 0;
+        if (is_limit && step.number <= kLastNamed) result.timer_is_limit |= std::uint64_t{1} << step.number;
+    }
+}
+
 void add_copies_to_groups(Symbols& symbols) {
     for (StepGroup& group : symbols.groups) {
         for (std::uint8_t step = 0; step < symbols.steps.size(); ++step) {
@@ -244,6 +251,7 @@ Compilation compile(const Sources& sources) {
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     result.written = written_of(program, plan, scope.initial_values());
     collect_allowances(program, plan, result);
+    note_limits(plan, result);
     std::sort(result.steps.begin(), result.steps.end(),
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);

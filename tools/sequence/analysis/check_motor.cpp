@@ -39,7 +39,7 @@ std::vector<const Group*> used_groups(const Explorer& explorer) {
     return groups;
 }
 
-/// V009: a move after which no step looks at INPOS or at the timer.
+/// V009: a move after which no step looks at INPOS or waits for a time.
 std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
     const auto moves = of_groups(explorer.machine(), [](const MotorOrder& order) {
@@ -49,7 +49,9 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
     std::vector<Node> open;
     for (auto node = static_cast<Node>(explorer.size()); node-- > 0;) {
         const std::uint8_t step = explorer.place(node).step;
-        sees[node] = sensitivity.tests_in_pos(step) || sensitivity.tests_timer(step);
+        const bool waits_for_time =
+            sensitivity.tests_timer(step) && ((subject.names.timer_is_limit >> step) & 1U) == 0;
+        sees[node] = sensitivity.tests_in_pos(step) || waits_for_time;
         if (!sees[node]) open.push_back(node);
     }
     for (bool changed = true; changed;) {
@@ -77,7 +79,7 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
         findings.push_back(
             {"V009", step,
              fmt::format("a move is ordered on the way into step {}, and no step after it looks "
-                         "at INPOS or the timer",
+                         "at INPOS or waits for a time",
                          step_name(subject.names, step)),
              std::move(*course)});
     }

@@ -41,6 +41,12 @@ verify::Names verify_names(const Symbols& symbols) {
     return names;
 }
 
+verify::Names verify_names(const Compilation& program) {
+    verify::Names names = verify_names(program.symbols);
+    names.timer_is_limit = program.timer_is_limit;
+    return names;
+}
+
 verify::Names verify_names() {
     verify::Names names;
     names.order = [](const sequencer::MotorOrder& order) { return order_text(order, nullptr); };

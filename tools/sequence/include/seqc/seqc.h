@@ -129,6 +129,8 @@ struct Compilation {
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
     std::vector<Allowance> allowances;
+    /// A bit for each step whose timer only limits it (WITHIN) or makes it blink.
+    std::uint64_t timer_is_limit = 0;
     Written written;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count

@@ -22,6 +22,8 @@ struct Names {
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
     /// A bit for each step that the compiler made for what a branch does a scan later, asking nothing again.
     std::uint64_t helpers = 0;
+    /// A bit for each step that does not wait for its timer: it limits the step (WITHIN) or makes it blink.
+    std::uint64_t timer_is_limit = 0;
     /// With names and units; none: bytes and numbers.
     std::function<std::string(const sequencer::MotorOrder&)> order = {};
 };
