@@ -165,20 +165,18 @@ void add_run(arguments::App& parent, RunOptions& options) {
     app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
     app.add_option("--junit", options.junit, "write the scenario's expectations as JUnit's XML")
         ->type_name("T.xml");
-    add_read(
-        app, "--motor", "MODEL",
-        "the motor (the program's own; MAC140 for a table without names, and for a MIDI drive's program)",
-        all_models(), [&options](const std::string& text) {
-            const registers::DriveModel* model = registers::find_drive(text);
-            if (model == nullptr) return false;
-            options.motor.reset();
-            options.drive = nullptr;
-            if (model->family->is_translated())
-                options.drive = model;
-            else
-                options.motor = model->map;
-            return true;
-        });
+    add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a table without names)",
+             all_models(), [&options](const std::string& text) {
+                 const registers::DriveModel* model = registers::find_drive(text);
+                 if (model == nullptr) return false;
+                 options.motor.reset();
+                 options.drive = nullptr;
+                 if (model->family->is_translated())
+                     options.drive = model;
+                 else
+                     options.motor = model->map;
+                 return true;
+             });
     add_read(app, "--midi", "LINE", "line to a MIDI drive: v24 or can (v24)", "v24 or can",
              into(options.can, [](const std::string& text) -> std::optional<bool> {
                  if (text != "v24" && text != "can") return std::nullopt;
@@ -245,30 +243,7 @@ void add_fmu(arguments::App& parent, FmuCommand& command) {
     app.footer(fmt::format("Variables, units and times: host-sim/fmu/README.md.\n{}", kExitCodes));
 }
 
-void check_drive(const RunOptions& run) {
-    if (run.can && run.drive == nullptr)
-        throw InputError("nanoplc-sim: --midi without a MIDI drive; add --motor MAC23, MAC34-1 or MAC34-2");
-    if (run.drive == nullptr) return;
-    if (run.plant)
-        throw InputError("nanoplc-sim: --plant is of a JVL motor's shaft; leave it out with a MIDI drive");
-    const auto bauds = run.drive->family->bauds();
-    if (run.can.value_or(false)) {
-        if (!run.drive->has_can)
-            throw InputError(
-                fmt::format("nanoplc-sim: a {} has no CAN; leave out --midi can", run.drive->name));
-        if (run.baud)
-            throw InputError("nanoplc-sim: --baud is of a serial line; leave it out with --midi can");
-    } else if (run.baud && !bauds.empty() &&
-               std::find(bauds.begin(), bauds.end(), *run.baud) == bauds.end()) {
-        throw InputError(fmt::format("nanoplc-sim: a {} drive's line has {} baud", run.drive->family->name(),
-                                     listed(bauds)));
-    }
-    if (run.rapid || run.old_register_codes)
-        throw InputError("nanoplc-sim: --rapid and --old-codes are of a JVL motor's line; leave them out");
-}
-
 void check_run(const RunOptions& run) {
-    check_drive(run);
     if (run.mactalk && !run.realtime)
         throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
     if (run.panel && !run.realtime)

@@ -125,14 +125,41 @@ void run_fast(Session& session, const RunOptions& options, const volatile std::s
     }
 }
 
-/// Without an explicit option a JVL motor replaces a program's drive; the real drive is slower to accept
-/// orders.
-void tell_stand_in(const RunOptions& options, const Program& program) {
-    if (program.drive == nullptr || options.drive != nullptr || options.motor) return;
-    const std::string_view drive = program.drive->name;
-    host::complain(fmt::format("{}: a {} stands in for the {} drive; --motor {} takes the drive",
-                               program.file, registers::name_of(program.names.motor),
-                               program.drive->family->name(), drive));
+void check_drive(const RunOptions& run) {
+    if (run.can && run.drive == nullptr)
+        throw InputError("nanoplc-sim: --midi without a MIDI drive; add --motor MAC23, MAC34-1 or MAC34-2");
+    if (run.drive == nullptr) return;
+    if (run.plant)
+        throw InputError("nanoplc-sim: --plant is of a JVL motor's shaft; leave it out with a MIDI drive");
+    const auto bauds = run.drive->family->bauds();
+    if (run.can.value_or(false)) {
+        if (!run.drive->has_can)
+            throw InputError(
+                fmt::format("nanoplc-sim: a {} has no CAN; leave out --midi can", run.drive->name));
+        if (run.baud)
+            throw InputError("nanoplc-sim: --baud is of a serial line; leave it out with --midi can");
+    } else if (run.baud && !bauds.empty() &&
+               std::find(bauds.begin(), bauds.end(), *run.baud) == bauds.end()) {
+        throw InputError(fmt::format("nanoplc-sim: a {} drive's line has {} baud", run.drive->family->name(),
+                                     fmt::join(bauds, " or ")));
+    }
+    if (run.rapid || run.old_register_codes)
+        throw InputError("nanoplc-sim: --rapid and --old-codes are of a JVL motor's line; leave them out");
+}
+
+/// What the program was compiled for and what it runs on, where these differ; empty where they do not.
+std::string misfit(const RunOptions& options, const Program& program) {
+    const bool another_drive =
+        program.drive != nullptr && program.drive != options.drive &&
+        (options.drive == nullptr || program.drive->program_name != options.drive->program_name);
+    const bool another_motor = program.drive == nullptr && options.motor &&
+                               *options.motor != program.names.motor && !program.names.steps.empty();
+    if (!another_drive && !another_motor) return {};
+    return fmt::format(
+        "{}: was compiled for {} and runs on {}; its register values may not fit", program.file,
+        another_drive ? program.drive->program_name : registers::name_of(program.names.motor),
+        options.drive != nullptr ? options.drive->name
+                                 : registers::name_of(options.motor.value_or(program.names.motor)));
 }
 
 Program stored_program() {
@@ -166,16 +193,14 @@ std::string symbols_beside_trace(const RunOptions& options) {
     return !own.empty() && touches(OutputFile::written_for(beside), own) ? std::string() : beside;
 }
 
-int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
-    check_outputs(options);
-    Program program =
-        options.program.empty() ? stored_program() : load_program(options.program, options.symbols);
+int run(const RunOptions& given, const volatile std::sig_atomic_t& interrupted) {
+    check_outputs(given);
+    Program program = given.program.empty() ? stored_program() : load_program(given.program, given.symbols);
+    RunOptions options = given;
+    if (!options.motor && options.drive == nullptr) options.drive = program.drive;
+    check_drive(options);
     if (!program.nameless.empty()) host::complain(program.nameless);
-    if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
-        host::complain(fmt::format("{}: was compiled for {} and runs on {}; its register values may not fit",
-                                   program.file, registers::name_of(program.names.motor),
-                                   registers::name_of(*options.motor)));
-    }
+    if (const std::string text = misfit(options, program); !text.empty()) host::complain(text);
     if (options.motor) program.names.motor = *options.motor;
     program.names.drive = options.drive;
     if (options.drive != nullptr && program.names.motor == registers::Model::mac800)
@@ -185,7 +210,6 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                         program.file, options.drive->family->name()));
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) host::complain(program.remark);
-    tell_stand_in(options, program);
     const auto outside = open_outside(options, program);
     const std::size_t columns = host::is_terminal(stdout) ? host::terminal_columns() : 0;
     Session session(options, program, scenario, Palette(wants_colour()), columns, outside->flash());

@@ -28,8 +28,8 @@ struct RunOptions {
     std::optional<std::string> mqtt;     ///< HOST:PORT of a broker
     std::optional<std::string> flash;    ///< file with the gateway's flash
     std::optional<Time> length;
-    std::optional<registers::Model> motor;  ///< empty: the program's own
-    /// A drive of another family than JVL that replaces the program's.
+    std::optional<registers::Model> motor;  ///< a JVL motor; empty, and no `drive`: the program's own
+    /// A drive of another family than JVL.
     const registers::DriveModel* drive = nullptr;
     std::optional<bool> can;  ///< for `drive`: CAN; else its serial line
     bool realtime = false;

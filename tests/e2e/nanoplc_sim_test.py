@@ -279,13 +279,25 @@ class Run(Case):
         self.assertIn("still on their way: VELOCITY(V1)\napart from that " + good, cut)
         self.assertNotIn("not executed", cut)
 
-    def test_a_stand_in_for_a_midi_drive_is_told(self):
+    def test_the_program_decides_the_motor(self):
+        steps = (b"STEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+                 b"STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
+        for motor, model in ((b"MAC23", "MAC23"), (b"MAC34", "MAC34-1"), (b"MAC34_2", "MAC34-2"), (b"MAC141", "MAC141")):
+            done = self.call("run", self.put("d.seq", b"PROGRAM P\nMOTOR " + motor + b";\n" + steps), "--for", "20ms", "--quiet")
+            self.assertEqual(done.stderr, b"")
+            self.assertIn(f" terms, {model}", done.stdout.decode().splitlines()[0])
+
+    def test_another_motor_than_the_programs_is_told(self):
         program = self.put("d.seq", b"PROGRAM P\nMOTOR MAC34;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
                              b"STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
-        told = self.call("run", program, "--for", "20ms").stderr.decode()
-        self.assertIn("a MAC140 stands in for the MIDI drive; --motor MAC34-1 takes the drive", told)
-        for motor in ("MAC34-1", "MAC140"):
+        for motor in ("MAC34-1", "MAC34-2"):
             self.assertEqual(self.call("run", program, "--for", "20ms", "--motor", motor).stderr, b"")
+        for motor in ("MAC140", "MAC23"):
+            told = self.call("run", program, "--for", "20ms", "--motor", motor).stderr.decode()
+            self.assertIn(f"was compiled for MAC34 and runs on {motor}; its register values may not fit", told)
+        self.assertEqual(self.call("run", program, "--for", "20ms", "--midi", "can").returncode, 0)
+        self.refused("run", program, "--rapid", says="of a JVL motor's line")
+        self.refused("run", self.table, "--midi", "can", says="--midi without a MIDI drive")
 
     def test_vcd_begins_as_viewers_want_it(self):
         self.run_with("end at 100 ms\n", "--vcd", self.path("t.vcd"))

@@ -134,7 +134,7 @@ class Virtual final : public Rehearsal {
 Rehearsal::Opened Rehearsal::open(const seqc::Compilation& program, const Options& options) {
     sim::Names names = names_of(program.symbols);
     sim::WorldOptions world;
-    const registers::DriveModel* drive = nullptr;  // replaced by a JVL motor unless one is named
+    const registers::DriveModel* drive = program.symbols.drive;
     if (!options.motor.empty()) {
         drive = registers::find_drive(options.motor);
         const auto model = registers::model_of(options.motor);
