@@ -286,9 +286,12 @@ void Session::summary() {
         if ((last_.outputs >> i & 1) != 0) outputs += (outputs.empty() ? "" : " ") + program_.names.output(i);
     }
     fmt::print("\n");
-    say(fmt::format("ended at {} ms in step {}, P_IST {} counts ({:.3f} rev), outputs {}{}",
-                    in_milliseconds(now()), program_.names.step(last_.step), last_.p_ist,
-                    static_cast<double>(last_.p_ist) / scale.counts_per_rev,
+    const double revs = static_cast<double>(last_.p_ist) / scale.counts_per_rev;
+    const auto& machine = program_.names.machine;
+    const std::string in_unit =
+        machine ? fmt::format(", {:.3f} {}", revs * machine->per_rev, machine->name) : "";
+    say(fmt::format("ended at {} ms in step {}, P_IST {} counts ({:.3f} rev{}), outputs {}{}",
+                    in_milliseconds(now()), program_.names.step(last_.step), last_.p_ist, revs, in_unit,
                     outputs.empty() ? "all off" : outputs, last_.error ? ", ERROR" : ""));
     say(fmt::format(
         "{} scans; orders: {} executed, {} discarded; {} messages sent again, {} link losses, {} watchdog "

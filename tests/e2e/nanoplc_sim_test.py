@@ -6,6 +6,7 @@ usage: nanoplc_sim_test.py PROGRAM
 
 import csv
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -298,6 +299,15 @@ class Run(Case):
         self.assertEqual(self.call("run", program, "--for", "20ms", "--midi", "can").returncode, 0)
         self.refused("run", program, "--rapid", says="of a JVL motor's line")
         self.refused("run", self.table, "--midi", "can", says="--midi without a MIDI drive")
+
+    def test_the_last_line_has_the_unit_of_scale(self):
+        # 4096 counts are a turn of a MAC140, 001 section 3.2; 3 turns are 15 mm.
+        source = (b"PROGRAM P\nMOTOR MAC140;\n%sVAR_MOTOR Far AT P1 := 3 rev; Fast AT V1 := 600 rpm; Soft AT A1 := 10000 rpm/s; END_VAR\n"
+                  b"POWER_UP INIT(Fast, Soft); NEXT := Away; END_POWER_UP\n"
+                  b"STEP Away: OWN ERROR; ENTRY POSITION(Far); IF IN0 THEN STOP; NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n")
+        for scale, there in ((b"SCALE 1 rev = 5 mm;\n", "(3.000 rev, 15.000 mm)"), (b"", "(3.000 rev)")):
+            told = self.call("run", self.put("d.seq", source % scale), "--for", "3s", "--quiet").stdout.decode()
+            self.assertRegex(told, r"P_IST 1228[78] counts " + re.escape(there) + ", outputs")
 
     def test_vcd_begins_as_viewers_want_it(self):
         self.run_with("end at 100 ms\n", "--vcd", self.path("t.vcd"))
