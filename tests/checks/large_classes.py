@@ -84,7 +84,4 @@ CLASSES = {
     "tools/macreg/ui/include/macreg/ui_model.h:UiModel": Large(
         "all that a screen shows, one getter each; a key changes several of them", methods=48, members=26
     ),
-    "tools/sequence/analysis/explorer.h:Explorer": Large(
-        "the store of the states and the walk that fills it; the innermost loops use both", methods=67, members=29
-    ),
 }

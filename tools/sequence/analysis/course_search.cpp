@@ -57,7 +57,7 @@ std::optional<Way> way_to_target(const Explorer& explorer, const Target& target,
     });
 }
 
-std::optional<Way> way_to_stuck(const Explorer& explorer, const Explorer::Stuck& stuck, Excluded& excluded) {
+std::optional<Way> way_to_stuck(const Explorer& explorer, const Stuck& stuck, Excluded& excluded) {
     return first_way(explorer, excluded, [&](const Walk::Scan& scan) {
         const bool is_there = scan.edge.from == stuck.node && scan.edge.group == stuck.group->number &&
                               explorer.place(scan.edge.to).counter == stuck.counter;

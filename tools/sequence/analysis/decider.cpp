@@ -170,7 +170,7 @@ Decider::Finding Decider::explored_scan(std::size_t target) {
     if (auto played = realized(coarse_->course_to(target)))
         return {.answer = Answer::can_be, .played = std::move(played)};
     if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
-    const std::vector<std::uint32_t> distances = coarse_->distances_to(targets_[target]);
+    const std::vector<std::uint32_t> distances = distances_to(*coarse_, targets_[target]);
     Explorer exact(machine_, Precision{.times_timer = true,
                                        .most_states = kMostTimedStates,
                                        .guide = coarse_.get(),
@@ -180,7 +180,7 @@ Decider::Finding Decider::explored_scan(std::size_t target) {
         if (exact.complete()) return {.answer = Answer::cannot_be};
         return {.why = out_of_bounds(exact)};
     }
-    if (auto played = realized(exact.course_to(std::size_t{0})))
+    if (auto played = realized(exact.course_to(0)))
         return {.answer = Answer::can_be, .played = std::move(played)};
     return {.why = kNoTimes};
 }
@@ -255,7 +255,7 @@ bool Decider::assumes_stable_inputs() const {
                        [](const Assumption& assumption) { return assumption.stable_ms != 0; });
 }
 
-std::string Decider::why_not_surely(const Target& target, const Explorer::Scans* only) const {
+std::string Decider::why_not_surely(const Target& target, const ScanKeys* only) const {
     std::string why = kNotSurely;
     if (held_ != 0 && surely_possible(*coarse_, target, 0, only)) {
         std::string assumptions;
@@ -270,7 +270,7 @@ std::string Decider::why_not_surely(const Target& target, const Explorer::Scans*
 }
 
 Decider::Finding Decider::stuck_outside(std::size_t index) {
-    Explorer::Stuck stuck;
+    Stuck stuck;
     Finding open = explored_stuck(targets_[index], stuck);
     if (stuck.node == Explorer::kNone) return open;
     return or_tried(std::move(open), *coarse_,
@@ -278,10 +278,10 @@ Decider::Finding Decider::stuck_outside(std::size_t index) {
 }
 
 /// `stuck`: one of the coarse exploration, or null.
-Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& stuck) {
+Decider::Finding Decider::explored_stuck(const Target& target, Stuck& stuck) {
     if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
-    const std::vector<std::uint32_t> distances = coarse_->distances_to(target);
-    stuck = coarse_->first_stuck(target, distances);
+    const std::vector<std::uint32_t> distances = distances_to(*coarse_, target);
+    stuck = first_stuck(*coarse_, target, distances);
     if (stuck.node == Explorer::kNone) {
         const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs() &&
                               machine_.move_ms() == 0 && !has_ranges();
@@ -289,18 +289,18 @@ Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& 
         if (surely_possible(*coarse_, target, held_)) return {.answer = Answer::cannot_be};
         return {.why = why_not_surely(target)};
     }
-    if (auto played = realized(coarse_->course_to(stuck)))
+    if (auto played = realized(course_to(*coarse_, stuck)))
         return {.answer = Answer::can_be, .played = std::move(played)};
     const Explorer& exact = fine();  // without the scans that no times permit
     if (!exact.has_all_edges()) return {.why = out_of_bounds(exact)};
-    const Explorer::Scans scans = exact.scans();
-    stuck = coarse_->first_stuck(target, distances, &scans);
+    const ScanKeys scans = scans_of(exact);
+    stuck = first_stuck(*coarse_, target, distances, &scans);
     if (stuck.node == Explorer::kNone) {
         if (surely_possible(*coarse_, target, held_, &scans)) return {.answer = Answer::cannot_be};
         return {.why = why_not_surely(target, &scans)};
     }
-    const Explorer::Stuck there = exact.same_scan(coarse_->place(stuck.node), stuck);
-    if (auto played = realized(exact.course_to(there)))
+    const Stuck there = same_scan(exact, coarse_->place(stuck.node), stuck);
+    if (auto played = realized(course_to(exact, there)))
         return {.answer = Answer::can_be, .played = std::move(played)};
     return {.why = kNoTimes};
 }

@@ -10,7 +10,7 @@
 #include "analysis/verify.h"
 #include "concretize.h"
 #include "course_search.h"
-#include "explorer.h"
+#include "ways_back.h"
 
 namespace nplc::verify {
 
@@ -65,14 +65,14 @@ class Decider {
     Finding explored_deadline(const Property& property) const;
     Finding explored_deadline(const Property& property, const Precision& precision) const;
     Finding explored_memory(const Property& property);
-    Finding explored_stuck(const Target& target, Explorer::Stuck& stuck);
+    Finding explored_stuck(const Target& target, Stuck& stuck);
     /// An undecided course is resolved by trying others.
     Finding or_tried(Finding open, const Explorer& explorer, const Ask& ask) const;
     const Explorer& fine();
     const Explorer& punctual();
     bool assumes_stable_inputs() const;
     /// Why ALWAYS POSSIBLE is undecided, with the assumption that leads to it.
-    std::string why_not_surely(const Target& target, const Explorer::Scans* only = nullptr) const;
+    std::string why_not_surely(const Target& target, const ScanKeys* only = nullptr) const;
     bool has_ranges() const { return !machine_.ranges().timer.empty() || machine_.has_counter_ranges(); }
 
     const sequencer::Table& table_;

@@ -81,7 +81,7 @@ class Search {
         : ways_(ways),
           target_(target),
           held_(held),
-          kind_numbers_(2 * Explorer::kSurroundings * ways.machine().all_groups().size()),
+          kind_numbers_(2 * kSurroundings * ways.machine().all_groups().size()),
           can_(ways.size()) {
         choices_.reserve(ways.edges().size());
         for (Explorer::Node node = 0; node < ways.size(); ++node) {
@@ -98,14 +98,13 @@ class Search {
         return can_[0][oldest()] != 0;
     }
 
-    bool all_can(const Explorer::Scans* only) {
+    bool all_can(const ScanKeys* only) {
         while (sweep()) {
         }
         for (Explorer::Node node = 0; node < ways_.size(); ++node) {
             for (std::size_t i = first_choice_[node]; i < first_choice_[node + 1]; ++i) {
                 const Choice& choice = choices_[i];
-                if (only != nullptr && !only->contains(Explorer::scan_key(ways_.place(node), choice.group)))
-                    continue;
+                if (only != nullptr && !only->contains(scan_key(ways_.place(node), choice.group))) continue;
                 if ((kinds_[choice.kind].wanted & ~after(choice, 0)) != 0) return false;
             }
         }
@@ -149,9 +148,9 @@ class Search {
 
     std::uint32_t kind_of(const Place& here, const Group& group, bool lost) {
         const View view = ways_.view_after(here, group);
-        const std::size_t surroundings = Explorer::surroundings_of(here, group, view);
+        const std::size_t surroundings = surroundings_of(here, group, view);
         std::uint32_t& number =
-            kind_numbers_[2 * (group.number * Explorer::kSurroundings + surroundings) + (lost ? 1U : 0U)];
+            kind_numbers_[2 * (group.number * kSurroundings + surroundings) + (lost ? 1U : 0U)];
         if (number != 0) return number - 1;
         const ImageSet images = group.images & ways_.allowed(here);
         const ImageSet hits = images & target_.images(view);
@@ -254,8 +253,7 @@ class Search {
 
 }  // namespace
 
-bool surely_possible(const Explorer& ways, const Target& target, std::uint8_t held,
-                     const Explorer::Scans* only) {
+bool surely_possible(const Explorer& ways, const Target& target, std::uint8_t held, const ScanKeys* only) {
     return Search(ways, target, held).all_can(only);
 }
 

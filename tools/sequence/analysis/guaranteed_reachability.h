@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "explorer.h"
+#include "ways_back.h"
 
 namespace nplc::verify {
 
@@ -12,7 +12,7 @@ namespace nplc::verify {
 /// From each scan, or from `only` these. `held`: the inputs, as bits, that keep their levels for longer; they
 /// change only where the scans do nothing.
 bool surely_possible(const Explorer& ways, const Target& target, std::uint8_t held,
-                     const Explorer::Scans* only = nullptr);
+                     const ScanKeys* only = nullptr);
 /// The same from power-up.
 bool surely_reached(const Explorer& ways, const Target& target, std::uint8_t held);
 

@@ -100,7 +100,7 @@ std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer,
     walk.all([&](const Walk::Scan& scan) {
         if (course) return;
         const Place& from = explorer.place(scan.edge.from);
-        const ImageSet begun = begun_in(property.form, conditions, Explorer::view_of(from));
+        const ImageSet begun = begun_in(property.form, conditions, from.view());
         const View after = explorer.view_after(from, explorer.group_of(scan.edge));
         const Step step = step_of(property.form, begun, conditions.in(after), scan.memory);
         const ImageSet images = scan.images();
