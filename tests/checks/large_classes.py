@@ -81,7 +81,4 @@ CLASSES = {
     "host-sim/midi_module/include/sim/midi_motion.h:MidiMotion": Large(
         "profile, encoder and shaft of one drive, which correct each other at every tick", methods=44, members=21
     ),
-    "tools/macreg/ui/include/macreg/ui_model.h:UiModel": Large(
-        "all that a screen shows, one getter each; a key changes several of them", methods=48, members=26
-    ),
 }

@@ -25,7 +25,7 @@ struct UiTest : testing::Test {
     void select(const std::string& name) {
         type("/");
         enter(name);
-        ASSERT_EQ(model.selected().name, name);
+        ASSERT_EQ(model.list().selected().name, name);
     }
     void store(std::uint8_t number, std::int64_t raw) {
         Snapshot values;
@@ -37,22 +37,22 @@ struct UiTest : testing::Test {
 };
 
 TEST_F(UiTest, ArrowsSelectAndStopAtTheEnds) {
-    EXPECT_EQ(model.selected().name, "PROG_VERSION");
+    EXPECT_EQ(model.list().selected().name, "PROG_VERSION");
     key(Key::up);
-    EXPECT_EQ(model.selected_row(), 0U);
+    EXPECT_EQ(model.list().selected_row(), 0U);
     key(Key::down);
-    EXPECT_EQ(model.selected().name, "MODE_REG");
+    EXPECT_EQ(model.list().selected().name, "MODE_REG");
     model.set_page(10);
     key(Key::page_down);
-    EXPECT_EQ(model.selected_row(), 11U);
+    EXPECT_EQ(model.list().selected_row(), 11U);
     key(Key::last);
-    EXPECT_EQ(model.selected_row(), model.rows().size() - 1);
+    EXPECT_EQ(model.list().selected_row(), model.list().rows().size() - 1);
     key(Key::page_down);
-    EXPECT_EQ(model.selected_row(), model.rows().size() - 1);
-    EXPECT_EQ(model.visible().size(), 10U);
-    EXPECT_EQ(model.visible().back(), &model.selected());
+    EXPECT_EQ(model.list().selected_row(), model.list().rows().size() - 1);
+    EXPECT_EQ(model.list().visible().size(), 10U);
+    EXPECT_EQ(model.list().visible().back(), &model.list().selected());
     key(Key::first);
-    EXPECT_EQ(model.visible().front(), &model.selected());
+    EXPECT_EQ(model.list().visible().front(), &model.list().selected());
 }
 
 TEST_F(UiTest, CtrlUClearsWhatStandsInThePrompt) {
@@ -75,18 +75,18 @@ TEST_F(UiTest, TestModesWantAYes) {
 TEST_F(UiTest, SearchFindsNamesNumbersAndTitles) {
     type("/");
     type("v_i");
-    EXPECT_EQ(model.selected().name, "V_IST") << "as it is typed";
+    EXPECT_EQ(model.list().selected().name, "V_IST") << "as it is typed";
     key(Key::escape);
-    EXPECT_EQ(model.selected().name, "PROG_VERSION") << "where it was";
+    EXPECT_EQ(model.list().selected().name, "PROG_VERSION") << "where it was";
     type("/");
     enter("gear");
-    EXPECT_EQ(model.selected().name, "GEARF1");
+    EXPECT_EQ(model.list().selected().name, "GEARF1");
     type("n");
-    EXPECT_EQ(model.selected().name, "GEARF2");
+    EXPECT_EQ(model.list().selected().name, "GEARF2");
     type("/");
     enter("nothing like it");
     EXPECT_TRUE(model.is_bad());
-    EXPECT_EQ(model.selected().name, "GEARF2");
+    EXPECT_EQ(model.list().selected().name, "GEARF2");
     type("/");
     enter("actual");  // P_IST's title; no name has it
     EXPECT_EQ(model.prompt().kind, Prompt::Kind::none);
@@ -95,7 +95,7 @@ TEST_F(UiTest, SearchFindsNamesNumbersAndTitles) {
 TEST_F(UiTest, ReadAndQuit) {
     const Request read = type("r");
     EXPECT_EQ(read.kind, Kind::read);
-    EXPECT_EQ(read.reg, &model.selected());
+    EXPECT_EQ(read.reg, &model.list().selected());
     EXPECT_EQ(type("R").kind, Kind::read_all);
     EXPECT_EQ(type("q").kind, Kind::quit);
 }
@@ -146,7 +146,7 @@ TEST_F(UiTest, ABitIsWrittenAndTheOthersStay) {
     key(Key::tab);
     EXPECT_EQ(model.panel(), Panel::bits);
     key(Key::down);
-    EXPECT_EQ(model.fields()[model.selected_field()].name, "PULSEDIR");
+    EXPECT_EQ(model.list().fields()[model.list().selected_field()].name, "PULSEDIR");
     type("w");
     EXPECT_TRUE(model.is_bad()) << "not read yet";
     store(36, 0x0203);
@@ -173,7 +173,7 @@ TEST_F(UiTest, TheStateIsModeAndErrors) {
     store(2, 2);
     store(35, 0x10);
     EXPECT_EQ(model.state_words(), "P_MODE, no error");
-    EXPECT_FALSE(model.has_error());
+    EXPECT_FALSE(model.list().has_error());
     store(35, 0x12);
     EXPECT_EQ(model.state_words(), "P_MODE FLW_ERR");
     model.set_trouble("NO ANSWER");
@@ -197,11 +197,11 @@ TEST_F(UiTest, RecordsWhatIsNamedAndRemembersIt) {
     recording.columns = {{"P_IST", "counts", {1, 2}}, {"V_IST", "rpm", {3, 4}}};
     model.set_recording(recording);
     key(Key::right);
-    EXPECT_EQ(model.curve(), 1U);
+    EXPECT_EQ(model.samples().curve(), 1U);
     key(Key::right);
-    EXPECT_EQ(model.curve(), 1U);
+    EXPECT_EQ(model.samples().curve(), 1U);
     type("c");
-    EXPECT_TRUE(model.recording().columns.empty());
+    EXPECT_TRUE(model.samples().recording().columns.empty());
 }
 
 TEST_F(UiTest, WhatWasLostWithTheLineStaysOnTheScreen) {
@@ -252,13 +252,13 @@ TEST_F(UiTest, SamplesGoOnAsNumbers) {
     key(Key::tab);
     ASSERT_EQ(model.panel(), Panel::samples);
     type("v");
-    EXPECT_TRUE(model.shows_numbers());
+    EXPECT_TRUE(model.samples().shows_numbers());
     key(Key::down);
-    EXPECT_EQ(model.sample(), 1U);
+    EXPECT_EQ(model.samples().sample(), 1U);
     key(Key::last);
-    EXPECT_EQ(model.sample(), 2U);
+    EXPECT_EQ(model.samples().sample(), 2U);
     type("v");
-    EXPECT_FALSE(model.shows_numbers());
+    EXPECT_FALSE(model.samples().shows_numbers());
 }
 
 TEST_F(UiTest, HelpGoesWithAnyKey) {

@@ -125,7 +125,7 @@ class App {
             case Request::Kind::read:
                 return try_to([&] { read_one(*request.reg); });
             case Request::Kind::read_all:
-                return try_to([&] { model_.store(motor_->read_block(model_.rows())); });
+                return try_to([&] { model_.store(motor_->read_block(model_.list().rows())); });
             case Request::Kind::write:
                 return try_to([&] { write(*request.reg, request.raw); });
             case Request::Kind::record:
@@ -179,8 +179,8 @@ class App {
             if (kind == Request::Kind::reset) service.reset();
             if (kind == Request::Kind::enter_safe) service.enter_safe();
             if (kind == Request::Kind::exit_safe) service.exit_safe();
-            model_.store(motor_->read_block(model_.rows()));
-            const std::string mode = mode_text(options_.model, *model_.raw_of(registers::MODE_REG));
+            model_.store(motor_->read_block(model_.list().rows()));
+            const std::string mode = mode_text(options_.model, *model_.list().raw_of(registers::MODE_REG));
             if (changed.empty()) return model_.tell(fmt::format("done; the motor is in {}", mode));
             model_.tell(fmt::format("the motor is in {}, but after the reset these have other values: {}",
                                     mode, fmt::join(changed, ", ")),
@@ -259,7 +259,7 @@ class App {
             if (!model_.is_live() || !model_.trouble().empty() || ++turn_ % 2 == 0) {
                 model_.store(motor_->read_block(state));
             } else {
-                const auto visible = model_.visible();
+                const auto visible = model_.list().visible();
                 model_.store(motor_->read_block(visible));
             }
         });

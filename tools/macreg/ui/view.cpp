@@ -56,7 +56,8 @@ class Screen {
         if (model_.zoomed()) {
             draw_panel(model_.panel(), all);
         } else {
-            const bool samples = !model_.recording().columns.empty() || !model_.progress().empty();
+            const bool samples =
+                !model_.samples().recording().columns.empty() || !model_.samples().progress().empty();
             const int rest = all.rows - kLineRows;
             const int upper = samples ? std::max(6, rest * 11 / 20) : rest - kEmptySamplesRows;
             const int left = std::max(kParameterColumns, columns_ / 2);
@@ -112,7 +113,7 @@ class Screen {
 
     void draw_state() {
         const std::string state = model_.state_words();
-        const bool wrong = !model_.trouble().empty() || model_.has_error();
+        const bool wrong = !model_.trouble().empty() || model_.list().has_error();
         const attr_t attributes = A_REVERSE | (wrong ? bad() : A_BOLD);
         cell(0, 0, columns_, " " + state, attributes);
         const int room = columns_ - static_cast<int>(state.size()) - 4;
@@ -125,9 +126,9 @@ class Screen {
         box = heading(Panel::parameters, box, model_.is_live() ? "Parameters" : "Parameters, read by r");
         model_.set_page(static_cast<std::size_t>(std::max(1, box.rows)));
         int y = box.top;
-        for (const Register* row : model_.visible()) {
+        for (const Register* row : model_.list().visible()) {
             const Register& reg = *row;
-            const bool is_selected = row == &model_.selected();
+            const bool is_selected = row == &model_.list().selected();
             cell(y++, box.left, box.columns - 1, parameter_words(reg, box.columns - 1),
                  is_selected ? (model_.panel() == Panel::parameters ? A_REVERSE : A_BOLD) : A_NORMAL);
         }
@@ -136,9 +137,9 @@ class Screen {
     std::string parameter_words(const Register& reg, int width) const {
         const std::string head =
             fmt::format("{:>3}{}{:<12} ", reg.number, reg.dangerous ? '!' : ' ', reg.name);
-        const auto raw = model_.raw_of(reg.number);
+        const auto raw = model_.list().raw_of(reg.number);
         if (!raw) return head + "-";
-        const std::string value = value_text(reg, model_.model(), *raw);
+        const std::string value = value_text(reg, model_.list().model(), *raw);
         const std::string plain = fmt::format("{}", *raw);
         const int room = width - static_cast<int>(head.size() + value.size()) - 1;
         if (value.starts_with(plain) || room < static_cast<int>(plain.size())) return head + value;
@@ -146,14 +147,14 @@ class Screen {
     }
 
     void draw_bits(Box box) {
-        const Register& reg = model_.selected();
-        const auto raw = model_.raw_of(reg.number);
+        const Register& reg = model_.list().selected();
+        const auto raw = model_.list().raw_of(reg.number);
         const auto bits = static_cast<std::uint32_t>(raw.value_or(0));
         box = heading(Panel::bits, box,
                       fmt::format("{} {}", reg.name, raw ? fmt::format("{:X}h", bits & mask_of(reg)) : ""));
-        const auto fields = model_.fields();
+        const auto fields = model_.list().fields();
         if (fields.empty()) return draw_about(box, reg);
-        const std::size_t selected = model_.selected_field();
+        const std::size_t selected = model_.list().selected_field();
         const auto meaning =
             wrapped(fields[selected].meaning, static_cast<std::size_t>(std::max(10, box.columns - 2)),
                     static_cast<std::size_t>(std::max(1, box.rows / 2)));
@@ -171,7 +172,8 @@ class Screen {
     }
 
     std::uint32_t mask_of(const Register& reg) const {
-        const bool wide = model_.model() == registers::Model::mac800 || registers::is_32_bit(reg.format);
+        const bool wide =
+            model_.list().model() == registers::Model::mac800 || registers::is_32_bit(reg.format);
         return wide ? 0xFFFFFFFF : 0xFFFF;
     }
 
@@ -186,7 +188,7 @@ class Screen {
     }
 
     void draw_about(Box box, const Register& reg) {
-        const auto* details = registers::details_of(model_.model(), reg.number);
+        const auto* details = registers::details_of(model_.list().model(), reg.number);
         int y = box.top;
         const int end = box.top + box.rows;
         const auto width = static_cast<std::size_t>(std::max(10, box.columns - 3));
@@ -203,23 +205,24 @@ class Screen {
     }
 
     void draw_samples(Box box) {
-        const Recording& recording = model_.recording();
-        if (!model_.progress().empty() || recording.columns.empty()) {
+        const Recording& recording = model_.samples().recording();
+        if (!model_.samples().progress().empty() || recording.columns.empty()) {
             box = heading(Panel::samples, box, "Samples");
             cell(box.top, box.left + 2, box.columns - 3,
-                 model_.progress().empty() ? "s records: name the registers, slow or fast"
-                                           : model_.progress());
+                 model_.samples().progress().empty() ? "s records: name the registers, slow or fast"
+                                                     : model_.samples().progress());
             return;
         }
-        const auto& column = recording.columns[model_.curve()];
+        const auto& column = recording.columns[model_.samples().curve()];
         const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
         std::string about =
             fmt::format("Samples: {}{}", column.name, column.unit.empty() ? "" : " [" + column.unit + "]");
         if (recording.columns.size() > 1)
-            about += fmt::format(" {} of {}, left and right", model_.curve() + 1, recording.columns.size());
+            about += fmt::format(" {} of {}, left and right", model_.samples().curve() + 1,
+                                 recording.columns.size());
         about += fmt::format("; {} samples in {:.3f} s", recording.size(), recording.time_s.back());
         box = heading(Panel::samples, box, about);
-        if (model_.shows_numbers()) return draw_numbers(box, recording);
+        if (model_.samples().shows_numbers()) return draw_numbers(box, recording);
         const int width = box.columns - kLabelColumns - 1;
         const auto rows = text_curve(column.values, width, box.rows, *least, *most, terminal_.is_utf8());
         for (int i = 0; i < static_cast<int>(rows.size()); ++i)
@@ -237,7 +240,7 @@ class Screen {
         };
         line(0, "s", [](const auto& column) { return column.name; });
         for (int y = 1; y < box.rows; ++y) {
-            const std::size_t i = model_.sample() + static_cast<std::size_t>(y) - 1;
+            const std::size_t i = model_.samples().sample() + static_cast<std::size_t>(y) - 1;
             if (i >= recording.size()) break;
             line(y, fmt::format("{:.4f}", recording.time_s[i]),
                  [&](const auto& column) { return fmt::format("{:.8g}", column.values[i]); });
@@ -246,9 +249,9 @@ class Screen {
 
     void draw_line(Box box) {
         box = heading(Panel::line, box, "Transmit and receive");
-        cell(box.top, box.left, box.columns, "> " + model_.sent());
-        cell(box.top + 1, box.left, box.columns, "< " + model_.received());
-        const auto& lines = model_.lines();
+        cell(box.top, box.left, box.columns, "> " + model_.exchanges().sent());
+        cell(box.top + 1, box.left, box.columns, "< " + model_.exchanges().received());
+        const auto& lines = model_.exchanges().lines();
         const auto room = static_cast<std::size_t>(std::max(0, box.rows - 2));
         const std::size_t first = lines.size() > room ? lines.size() - room : 0;
         for (std::size_t i = first; i < lines.size(); ++i)
