@@ -65,10 +65,11 @@ echo 'comm == "nanoplc" || comm == "smallest"' >events/kprobes/uart/filter
 echo 1 >events/irq/irq_handler_entry/enable
 echo 1 >events/kprobes/uart/enable
 cd /share
-cp -r state /tmp/state
 sed -i "s/CHIP/$simulated/" nanoplc.toml
 run() {
     turn=$1; clients=$2; shift 2
+    rm -rf /tmp/state  # the stop at the end of the turn before was not confirmed, its motor having gone
+    cp -r state /tmp/state
     ./surroundings /tmp/motor $lines/sim_gpio0/pull EDGES &
     around=$!
     until [ -e /tmp/motor ]; do usleep 20000; done
