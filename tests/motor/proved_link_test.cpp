@@ -37,6 +37,23 @@ TEST_F(ProvedLink, AnIdleMotorIsAskedForItsToggleEachTimeOfSilence) {
     EXPECT_EQ(driver.counters().resent, 0U);
 }
 
+/// A line without a pace of its own, such as a pseudo-terminal, may bring the echo before the line's rate
+/// allows it.
+TEST_F(ProvedLink, AnEchoBeforeTheMessageCanHaveLeftBringsNoFlood) {
+    start();
+    std::uint8_t shown = 0x80;
+    std::size_t sent = 0;
+    constexpr int kCharactersIn200Ms = 384;
+    for (int i = 0; i < kCharactersIn200Ms; ++i) {
+        if (!line.sent.empty()) shown = static_cast<std::uint8_t>(line.sent.back() & 0x80);
+        sent += line.take().size();
+        motor.hear(shown);
+    }
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_GE(sent, 2U * 8);
+    EXPECT_LE(sent, 2U * 10) << "a NOP, sent twice, each 20 ms";
+}
+
 TEST_F(ProvedLink, AWireStuckLowIsALostLink) {
     motor.hear_times(2, 0x00);
     come_up(0x00);
