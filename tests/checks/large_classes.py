@@ -28,9 +28,6 @@ CLASSES = {
     "firmware/faces/model/include/faces/axis_loop.h:AxisLoop": Large(
         "one order after another between two scans: stops, changes and the motor's accesses wait for each other", members=28
     ),
-    "firmware/faces/modbus/rtu_server.cpp:RtuServer::Loop": Large(
-        "times of the line, the request and its answer, each of which decides what becomes of the other two", members=22
-    ),
     "firmware/gateway/include/gateway/gateway.h:Gateway": Large(
         "the face of scan, hold, forces, permission and log to the user port, mostly one line each; the state decides over all"
         + IMAGE,
