@@ -82,12 +82,13 @@ void UserConnection::watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t
 void UserConnection::look(gateway::Controller& controller, const Listener::Addresses& addresses,
                           base::Instant now) {
     const bool has_news = std::exchange(readable_, false) || uart_;
-    if (server_ && (has_news || server_->next(now) <= now)) server_->bring(controller, addresses, now);
+    if (server_ && (has_news || server_due_ <= now)) server_->bring(controller, addresses, now);
 }
 
 void UserConnection::answer(gateway::Controller& controller, base::Instant now) {
     if (!server_) return;
     server_->take_back(controller, now);
+    server_due_ = server_->next(now);
     tell_unwanted(now);
 }
 
@@ -109,9 +110,9 @@ bool UserConnection::look_for_serial_port(base::Instant now) {
     return uart_ && uart_->look(journal_.journal(), now);
 }
 
-base::Instant UserConnection::next_look(base::Instant now) const {
-    const base::Instant next = server_ ? server_->next(now) : base::kNever;
-    return uart_ ? std::min(next, uart_->next_look()) : next;
+base::Instant UserConnection::next_look(base::Instant now) {
+    if (server_) server_due_ = server_->next(now);
+    return uart_ ? std::min(server_due_, uart_->next_look()) : server_due_;
 }
 
 }  // namespace nplc::boards
