@@ -16,7 +16,7 @@ from nanoplc_test import commission
 
 WANTED = {"median": 1.2, "p99": 1.5}
 LINE = 0
-QUIET = 8000  # us: of an order from its first byte to the motor's answer
+QUIET = 3000  # us: of an order, or of the NOP that proves the line, from its first byte to the motor's answer
 PRIORITY = 50
 LONGEST_TURN = 1200  # s: of both programs; 200 clients with every instruction counted take most of it
 # Answers each edge with one order. Commands by 001 section 2.7.
