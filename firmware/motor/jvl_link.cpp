@@ -227,9 +227,9 @@ void JvlLink::settle(base::Instant now) {
     // The echo time is not learned from longer messages: the motor may answer them before their end.
     if (resends_ == 0 && size_ <= 2)
         echo_.learn(now - (on_the_line_ ? left_at_ : line_free_) - kEchoCharacters * character_);
-    if (!on_the_line_) left_at_ = line_free_;
     synchronize();
     expect_ = Expect::nothing;
+    left_at_ = now;
     accepted_ = true;
 }
 

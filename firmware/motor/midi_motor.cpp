@@ -24,6 +24,7 @@ constexpr base::Microseconds kPatience{1'000'000};
 /// Query intervals while something moves, and at standstill.
 constexpr base::Microseconds kPace{5'000};
 constexpr base::Microseconds kRestPace{20'000};
+constexpr int kMostAtOnce = 7;  ///< orders in a poll
 constexpr std::uint8_t kCommandMode = 3;
 constexpr std::uint8_t kNop = 0x60;
 
@@ -285,7 +286,7 @@ void MidiMotor::forget_parameter() {
 }
 
 /// The position is kept (R: "a status similar to the startup status").
-void MidiMotor::begin_reset(base::Instant now) {
+[[gnu::noinline]] void MidiMotor::begin_reset(base::Instant now) {
     reset_wanted_ = false;
     fault_ = MidiFault::none;
     motion_.drop_goal();
@@ -327,19 +328,20 @@ void MidiMotor::work(base::Instant now) {
 MidiNext MidiMotor::next_message(base::Instant now) {
     if (!session_.is_up()) return session_.start_up(stop_wanted_, now);
     if (session_.must_ask()) return midi_query(midi::GET_STATUS);
-    const bool more_may_follow = orders_.full();
-    for (;;) {
+    // Less than the queue: a scan with more orders goes on before the last of these is taken.
+    for (int left = kMostAtOnce; left != 0; --left) {
         if (const MidiNext next = next_command(now); next != kNothing) return next;
         if (zero_unclear_ || registers_.awaits_position()) return midi_query(midi::GET_POSITION);
         if (motion_.motion_unconfirmed()) return next_query(now);
         orders_.end();
-        if (orders_.empty()) break;
+        if (orders_.empty()) {
+            if (!status_is_new_) return midi_query(midi::GET_STATUS);
+            if (const MidiNext next = next_access(); next != kNothing) return next;
+            return next_query(now);
+        }
         execute(orders_.begin());
-        if (more_may_follow && orders_.empty()) return kNothing;
     }
-    if (!status_is_new_) return midi_query(midi::GET_STATUS);
-    if (const MidiNext next = next_access(); next != kNothing) return next;
-    return next_query(now);
+    return kNothing;
 }
 
 MidiNext MidiMotor::next_query(base::Instant now) {
@@ -349,7 +351,7 @@ MidiNext MidiMotor::next_query(base::Instant now) {
 
 /// The command that can be sent now to bring the drive to the state in the registers; nothing while it has to
 /// wait for standstill.
-[[gnu::noinline]] MidiNext MidiMotor::next_command(base::Instant now) {
+MidiNext MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
     if (stop_wanted_)
         return now < retry_at_ ? kNothing : midi_command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
@@ -362,12 +364,12 @@ MidiNext MidiMotor::next_query(base::Instant now) {
         return motion_.moves() || (motion_.unexpected_motion() && error()) ? midi_command(midi::STOP)
                                                                            : kNothing;
     if (refusals_ != 0 && now < retry_at_) return kNothing;
+    // POSITION(P1, V1) is V1, then P1: no motion towards the old P_SOLL in between, which could not be
+    // redirected.
+    if (motion_.at_rest() && !orders_.empty()) return kNothing;
     if (motion_.unexpected_motion()) return midi_command(midi::STOP);
     if (!session_.is_alone(now)) return kNothing;
     const MidiNext motion = guidance.next_motion();
-    // POSITION(P1, V1) is V1, then P1: no motion towards the old P_SOLL in between, which could not be
-    // redirected.
-    if (!orders_.empty()) return motion == midi_command(midi::STOP) ? motion : kNothing;
     if (guidance.limitation() != Limitation::none) raise(MidiFault::bad_value, guidance.limitation());
     return motion;
 }

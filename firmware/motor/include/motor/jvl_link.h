@@ -132,7 +132,7 @@ class JvlLink {
     std::optional<std::uint32_t> reply_;
     base::Instant next_byte_{};
     base::Instant line_free_{};  ///< earliest end of transmission, whatever the port reports
-    base::Instant left_at_{};    ///< when the last byte had left the transmitter
+    base::Instant left_at_{};    ///< when the last byte had left the transmitter, or the message was echoed
     base::Instant started_{};
     base::Instant last_status_{};
     Listening listening_;
