@@ -427,6 +427,35 @@ class Served(service_case.ServiceCase):
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("Modbus TCP listens at tcp:127.0.0.1:1502", checked.stdout)
 
+    def units(self, *axes, modbus='listen = "tcp:127.0.0.1:1502"'):
+        """What check-config says of axes, each a name and its unit: exit code, mistakes and warnings, {axis: unit} of each face."""
+        written = [self.axis(name=name).replace("table =", f"modbus_unit = {unit}\ntable =" if unit else "table =")
+                   .replace(self.path("motor"), self.path("motor" + name)) for name, unit in axes]
+        config = self.write(*written, service=f"[modbus]\n{modbus}")
+        checked = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", config], capture_output=True, text=True, check=False)
+        return (checked.returncode, checked.stderr.splitlines(),
+                [dict(re.findall(r"axis (\w+) is unit (\d+)", line)) for line in checked.stdout.splitlines() if line.startswith("Modbus ")])
+
+    def test_an_axis_keeps_its_unit_when_another_is_removed(self):
+        both = 'listen = "tcp:127.0.0.1:1502"\nrtu_port = "pty:/tmp/plc"\nrtu_unit = 10'
+        self.assertEqual(self.units(("x", 0), modbus=both), (0, [], [{"x": "1"}, {"x": "10"}]))
+        self.assertEqual(self.units(("x", 7), ("y", 3), modbus=both), (0, [], 2 * [{"x": "7", "y": "3"}]))
+        self.assertEqual(self.units(("y", 3), modbus=both), (0, [], 2 * [{"y": "3"}]))
+        code, (warning,), units = self.units(("x", 0), ("y", 4), ("z", 0), modbus=both)
+        self.assertEqual((code, units), (0, [{"x": "1", "y": "4", "z": "3"}, {"x": "10", "y": "4", "z": "12"}]))
+        self.assertIn("axis: warning: x, z have no modbus_unit: ", warning)
+
+    def test_a_unit_has_one_axis(self):
+        code, mistakes, _ = self.units(("x", 3), ("y", 3))
+        self.assertEqual(code, 2)
+        self.assertRegex(mistakes[0], r": axis\[y\]\.modbus_unit: 3 is used twice: axis\[x\]\.modbus_unit in line \d+ has it already$")
+        # The second axis is unit 2 by its place.
+        code, mistakes, _ = self.units(("x", 2), ("y", 0))
+        self.assertEqual(code, 2)
+        self.assertRegex(mistakes[0], r": axis\[x\]\.modbus_unit: 2 is used twice: axis y in line \d+ has it on Modbus TCP by its place; ")
+        for unit, code in ((248, 2), (247, 0), (-1, 2)):
+            self.assertEqual(self.units(("x", unit))[0], code, unit)
+
     def test_the_map_is_csv(self):
         text = subprocess.run([service_case.NANOPLC, "modbus-map"], capture_output=True, text=True, check=True).stdout
         rows = list(csv.DictReader(io.StringIO(text)))

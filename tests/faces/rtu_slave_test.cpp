@@ -168,5 +168,36 @@ TEST(RtuSlave, OthersTalkIsPassedOver) {
     EXPECT_FALSE(line.run(500ms).empty());
 }
 
+/// What is removed before it changes nothing.
+TEST(RtuSlave, AnAxisIsTheUnitOfItsOwn) {
+    RtuBench line;
+    const auto units_of = [&line](const std::vector<std::uint8_t>& units, const faces::Axes& axes) {
+        RtuSlave slave{{.unit = kUnit, .settings = {.units = units}}, axes};
+        faces::Bell bell{[] {}};
+        slave.join(bell, line.now());
+        std::vector<unsigned> answering;
+        for (unsigned unit = 1; unit <= protocol::modbus::kHighestUnit; ++unit) {
+            std::vector<ports::ReceivedByte> all;
+            for (const std::uint8_t byte : sealed(static_cast<std::uint8_t>(unit), kAskStatus))
+                all.push_back({byte, false});
+            static_cast<void>(line.model.image(line.now()));
+            line.run(30ms);
+            slave.take(all, line.now(), line.now());
+            slave.poll(line.now());
+            slave.poll(line.now() + 200ms);
+            const auto out = slave.out(line.now() + 200ms);
+            if (out.empty()) continue;
+            EXPECT_EQ(out[0], unit);
+            answering.push_back(unit);
+        }
+        return answering;
+    };
+    faces::AxisModel other{"y"};
+    EXPECT_EQ(units_of({}, {&other, &line.model}), (std::vector<unsigned>{10, 11}));
+    EXPECT_EQ(units_of({3, 247}, {&other, &line.model}), (std::vector<unsigned>{3, 247}));
+    EXPECT_EQ(units_of({247}, {&line.model}), (std::vector<unsigned>{247}));
+    EXPECT_EQ(units_of({0, 4}, {&other, &line.model}), (std::vector<unsigned>{4, 10}));
+}
+
 }  // namespace
 }  // namespace nplc::modbus

@@ -51,7 +51,9 @@ class Reader {
         result_.config.mqtt = read_mqtt(root, findings_);
         read_axes(root);
         root.finish();
+        number_units();
         find_doubles();
+        find_double_units();
         find_double_ports();
         std::stable_sort(findings_.mistakes.begin(), findings_.mistakes.end(),
                          [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
@@ -124,6 +126,9 @@ class Reader {
             section.complain("name", "may have small letters, digits, - and _, 32 at the most");
         axis.table = located_text(section, "table");
         axis.symbols = located_text(section, "symbols");
+        if (const auto unit =
+                section.number("modbus_unit", protocol::modbus::kLowestUnit, protocol::modbus::kHighestUnit))
+            axis.modbus_unit = {std::to_string(*unit), section.line_of("modbus_unit"), path + ".modbus_unit"};
         axis.motor = read_motor(section, axis.line, findings_);
         Section user(section.table("user"), path + ".user", findings_);
         axis.user_port = located_text(user, "port");
@@ -230,6 +235,45 @@ class Reader {
         return axis.settings.set(setting, value).ok();
     }
 
+    void number_units() {
+        ModbusConfig& modbus = result_.config.modbus;
+        for (const AxisConfig& axis : result_.config.axes)
+            modbus.options.settings.units.push_back(
+                axis.modbus_unit.is_there() ? static_cast<std::uint8_t>(std::stoi(axis.modbus_unit.text))
+                                            : std::uint8_t{0});
+        modbus.rtu.settings.units = modbus.options.settings.units;
+    }
+
+    /// Units that one axis has and another one gets by its place.
+    void find_double_units() {
+        const ModbusConfig& modbus = result_.config.modbus;
+        if (modbus.listen.is_there()) find_double_units("TCP", 1);
+        if (modbus.rtu_port.is_there()) find_double_units("RTU", modbus.rtu.unit);
+    }
+
+    void find_double_units(std::string_view face, std::size_t first) {
+        const std::vector<AxisConfig>& axes = result_.config.axes;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (axes[i].modbus_unit.is_there()) continue;
+            const std::string unit = std::to_string(first + i);
+            if (first + i > protocol::modbus::kHighestUnit)
+                findings_.mistakes.push_back(
+                    {result_.config.modbus.rtu_port.line, "modbus.rtu_unit",
+                     fmt::format("leaves no address up to 247 for axis {}; write a lower one, or its "
+                                 "modbus_unit",
+                                 axes[i].name)});
+            const auto same = std::find_if(axes.begin(), axes.end(), [&unit](const AxisConfig& other) {
+                return other.modbus_unit.text == unit;
+            });
+            if (same == axes.end()) continue;
+            findings_.mistakes.push_back(
+                {same->modbus_unit.line, same->modbus_unit.key,
+                 fmt::format("{} is used twice: axis {} in line {} has it on Modbus {} by its place; write a "
+                             "modbus_unit there, too",
+                             unit, axes[i].name, axes[i].line, face)});
+        }
+    }
+
     /// Finds values that must be unique over all axes.
     void find_doubles() {
         std::map<std::string, LocatedText> seen;
@@ -246,12 +290,9 @@ class Reader {
         };
         const ModbusConfig& modbus = result_.config.modbus;
         if (modbus.rtu_port.is_there()) take("port " + port_id(modbus.rtu_port.text), modbus.rtu_port);
-        if (modbus.rtu.unit + result_.config.axes.size() - 1 > protocol::modbus::kHighestUnit)
-            findings_.mistakes.push_back(
-                {modbus.rtu_port.line, "modbus.rtu_unit",
-                 "leaves no address up to 247 for the last axis; write a lower one"});
         for (const AxisConfig& axis : result_.config.axes) {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
+            if (axis.modbus_unit.is_there()) take("unit " + axis.modbus_unit.text, axis.modbus_unit);
             for (const LocatedText& line : axis.gpio) take("line " + line_id(line.text), line);
             for (const LocatedText& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port}) {
                 if (port.is_there() && !port.text.starts_with("tcp:"))

@@ -36,6 +36,7 @@ struct AxisConfig {
     Lines<4> outputs;
     std::vector<LocatedText> gpio;    ///< every named line
     store::SettingValues settings{};  ///< used while none are stored
+    LocatedText modbus_unit;          ///< a number; without one its place among the axes gives it
     int line = 0;
 };
 

@@ -107,7 +107,8 @@ int check(const Options& options) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
-    if (auto warning = clear_text(loaded.config.mqtt)) {
+    for (auto warning : {clear_text(loaded.config.mqtt), moving_units(loaded.config)}) {
+        if (!warning) continue;
         warning->text = "warning: " + warning->text;
         print(options.file, {*warning});
     }

@@ -21,7 +21,35 @@ std::string orders_in_words(const deployment::Settings& settings) {
                        settings.window ? ", at " + settings.window->text() : "");
 }
 
+/// "axis x is unit 1, axis y is unit 2"
+std::string units_in_words(const Config& config, const modbus::Settings& settings, std::uint8_t first) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < config.axes.size(); ++i)
+        all.push_back(
+            fmt::format("axis {} is unit {}", config.axes[i].name, modbus::unit_of(settings, i, first)));
+    return fmt::format("{}", fmt::join(all, ", "));
+}
+
 }  // namespace
+
+std::optional<Mistake> moving_units(const Config& config) {
+    const bool has_modbus = config.modbus.listen.is_there() || config.modbus.rtu_port.is_there();
+    if (!has_modbus || config.axes.size() < 2) return std::nullopt;
+    std::vector<std::string> names;
+    int line = 0;
+    for (const AxisConfig& axis : config.axes) {
+        if (axis.modbus_unit.is_there()) continue;
+        if (names.empty()) line = axis.line;
+        names.push_back(axis.name);
+    }
+    if (names.empty()) return std::nullopt;
+    return Mistake{
+        line, "axis",
+        fmt::format("{} {} no modbus_unit: when an axis before {} is removed or added, a PLC commands "
+                    "another machine; write one for each axis",
+                    fmt::join(names, ", "), names.size() == 1 ? "has" : "have",
+                    names.size() == 1 ? "it" : "them")};
+}
 
 std::vector<std::string> faces_in_words(const Config& config) {
     std::vector<std::string> lines;
@@ -30,15 +58,12 @@ std::vector<std::string> faces_in_words(const Config& config) {
     const ModbusConfig& modbus = config.modbus;
     const char* const rights = modbus.options.settings.writes ? "and operates" : "for reading and stopping";
     if (modbus.listen.is_there())
-        lines.push_back(fmt::format("Modbus TCP listens at {}, {}", modbus.listen.text, rights));
-    if (modbus.rtu_port.is_there()) {
-        const std::size_t last = modbus.rtu.unit + config.axes.size() - 1;
-        lines.push_back(
-            fmt::format("Modbus RTU answers on {}, {} baud, as {}, {}", modbus.rtu_port.text, modbus.rtu.baud,
-                        config.axes.size() == 1 ? fmt::format("unit {}", last)
-                                                : fmt::format("units {} to {}", modbus.rtu.unit, last),
-                        rights));
-    }
+        lines.push_back(fmt::format("Modbus TCP listens at {}, {}: {}", modbus.listen.text, rights,
+                                    units_in_words(config, modbus.options.settings, 1)));
+    if (modbus.rtu_port.is_there())
+        lines.push_back(fmt::format("Modbus RTU answers on {}, {} baud, {}: {}", modbus.rtu_port.text,
+                                    modbus.rtu.baud, rights,
+                                    units_in_words(config, modbus.rtu.settings, modbus.rtu.unit)));
     if (config.metrics.listen.is_there())
         lines.push_back(
             fmt::format("metrics are served at {}, for reading only", config.metrics.listen.text));

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace nplc::boards {
 
 /// The configured faces for `check-config`, one line each; empty: none.
 std::vector<std::string> faces_in_words(const Config& config);
+
+/// For `check-config`: axes whose Modbus units change when another axis is added or removed.
+std::optional<Mistake> moving_units(const Config& config);
 
 /// The configured plant interfaces. A missing one stops no axis and is retried.
 class PlantPart {

@@ -13,9 +13,8 @@ constexpr base::Milliseconds kBriefly{1};
 }  // namespace
 
 RtuSlave::RtuSlave(const Options& options, const faces::Axes& axes)
-    : first_unit_(options.unit),
-      gap_(protocol::modbus::silence_between_frames(options.baud)),
-      set_(axes, options.settings) {}
+    : gap_(protocol::modbus::silence_between_frames(options.baud)),
+      set_(axes, options.settings, options.unit) {}
 
 void RtuSlave::join(faces::Bell& bell, base::Instant now) {
     set_.join(bell);
@@ -60,11 +59,6 @@ void RtuSlave::hear_another(base::Instant now) {
     if (is_pending() && sent_ == 0 && now - request_ended_ > gap_ + kLumps) give_up(now);
 }
 
-std::optional<std::size_t> RtuSlave::index_of(std::uint8_t unit) const {
-    if (unit < first_unit_ || std::size_t{unit} - first_unit_ >= set_.size()) return std::nullopt;
-    return std::size_t{unit} - first_unit_;
-}
-
 /// Carries out what is pending, without an answer: the master waits for it no longer.
 void RtuSlave::give_up(base::Instant now) {
     frame_.reset();
@@ -81,7 +75,7 @@ void RtuSlave::note_frame(base::Instant arrived, base::Instant now) {
         for (const faces::Command& stop : stops_in(reader_.pdu(), now)) set_.stop_all(stop);
         return;
     }
-    if (!index_of(reader_.unit())) return;
+    if (!set_.index_of(reader_.unit())) return;
     unit_ = reader_.unit();
     request_ended_ = now;
     request_arrived_ = arrived;
@@ -93,7 +87,7 @@ void RtuSlave::note_frame(base::Instant arrived, base::Instant now) {
 void RtuSlave::note_stop(base::Instant now) {
     give_up(now);
     const bool is_for_all = finder_.unit() == kBroadcast;
-    const auto index = index_of(finder_.unit());
+    const auto index = set_.index_of(finder_.unit());
     for (const faces::Command& stop : stops_in(finder_.pdu(), now)) {
         if (is_for_all) set_.stop_all(stop);
         if (!is_for_all && index) set_.stop(*index, stop);
@@ -101,9 +95,8 @@ void RtuSlave::note_stop(base::Instant now) {
 }
 
 std::optional<Answer> RtuSlave::hand_over(base::Instant now) {
-    const auto number = static_cast<std::uint8_t>(unit_ - first_unit_ + 1);
     const std::span<const std::uint8_t> pdu = std::span(request_).first(std::exchange(request_size_, 0));
-    return session_->serve(number, pdu, {.now = now, .arrived = request_arrived_});
+    return session_->serve(unit_, pdu, {.now = now, .arrived = request_arrived_});
 }
 
 /// Answers once there is a recent image.

@@ -17,7 +17,7 @@ class RtuSlave {
   public:
     struct Options {
         std::uint32_t baud = 19'200;
-        std::uint8_t unit = 1;  ///< of the first axis
+        std::uint8_t unit = 1;  ///< of the first axis, where Settings::units has none
         Settings settings{};
     };
     RtuSlave(const Options& options, const faces::Axes& axes);
@@ -39,13 +39,11 @@ class RtuSlave {
     void note_stop(base::Instant now);
     void give_up(base::Instant now);
     void hear_another(base::Instant now);
-    std::optional<std::size_t> index_of(std::uint8_t unit) const;
     std::optional<Answer> hand_over(base::Instant now);
     void serve(base::Instant now);
     void answer(const Answer& pdu) { frame_ = protocol::modbus::RtuFrame(unit_, pdu.bytes()); }
     bool is_pending() const { return request_size_ != 0 || frame_ || session_->is_waiting(); }
 
-    std::uint8_t first_unit_;
     base::Microseconds gap_;
     UnitSet set_;
     std::optional<Session> session_;

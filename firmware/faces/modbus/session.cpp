@@ -136,7 +136,9 @@ Session::~Session() {
 Unit* Session::find(std::uint8_t unit) {
     constexpr std::uint8_t kAny = 255;
     if ((unit == 0 || unit == kAny) && units_.size() == 1) return units_.front().get();
-    return unit == 0 || unit > units_.size() ? nullptr : units_[unit - 1U].get();
+    const auto found =
+        std::find_if(units_.begin(), units_.end(), [unit](const auto& one) { return one->number == unit; });
+    return found == units_.end() ? nullptr : found->get();
 }
 
 std::optional<Answer> Session::serve(std::uint8_t number, std::span<const std::uint8_t> pdu,

@@ -13,7 +13,7 @@ UnitSet::~UnitSet() {
 void UnitSet::join(faces::Bell& bell) {
     bell_ = &bell;
     for (faces::AxisModel* axis : axes_) {
-        units_.push_back(std::make_unique<Unit>(*axis, settings_));
+        units_.push_back(std::make_unique<Unit>(*axis, settings_, unit_of(settings_, units_.size(), first_)));
         axis->watch(bell);
         guards_.push_back(axis->join(faces::Side::plant, "Modbus: silent master", bell));
     }
@@ -22,6 +22,13 @@ void UnitSet::join(faces::Bell& bell) {
 bool UnitSet::is_fresh(base::Instant now) const {
     return std::all_of(units_.begin(), units_.end(),
                        [now](const auto& unit) { return now - unit->model.image(now).taken <= kFresh; });
+}
+
+std::optional<std::size_t> UnitSet::index_of(std::uint8_t unit) const {
+    const auto found =
+        std::find_if(units_.begin(), units_.end(), [unit](const auto& one) { return one->number == unit; });
+    if (found == units_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - units_.begin());
 }
 
 void UnitSet::watch_masters(base::Instant now) {

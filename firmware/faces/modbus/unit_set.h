@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "modbus/session.h"
@@ -18,7 +19,9 @@ class UnitSet {
     static constexpr base::Milliseconds kTick{250};
     static constexpr base::Milliseconds kBetweenLooks{20};  ///< while a command is in progress
 
-    UnitSet(const faces::Axes& axes, const Settings& settings) : axes_(axes), settings_(settings) {}
+    /// `first`: unit of the first axis, where it has none of its own.
+    UnitSet(const faces::Axes& axes, const Settings& settings, std::uint8_t first = 1)
+        : axes_(axes), settings_(settings), first_(first) {}
     ~UnitSet();
     UnitSet(const UnitSet&) = delete;
     UnitSet& operator=(const UnitSet&) = delete;
@@ -29,7 +32,8 @@ class UnitSet {
     std::vector<std::unique_ptr<Unit>>& units() { return units_; }
     bool is_fresh(base::Instant now) const;
     void watch_masters(base::Instant now);
-    std::size_t size() const { return units_.size(); }
+    /// Index of the axis that is this unit.
+    std::optional<std::size_t> index_of(std::uint8_t unit) const;
     /// Sends a stop to one axis.
     void stop(std::size_t index, const faces::Command& command);
     /// Sends a stop to all axes.
@@ -39,6 +43,7 @@ class UnitSet {
   private:
     faces::Axes axes_;
     Settings settings_;
+    std::uint8_t first_;
     faces::Bell* bell_ = nullptr;
     std::vector<std::unique_ptr<Unit>> units_;
     std::vector<std::unique_ptr<faces::CommandDesk::Client>> guards_;

@@ -10,9 +10,9 @@
 
 namespace nplc::modbus {
 
-/// Modbus RTU (Modbus over Serial Line V1.02), in its own thread: axis n of the process has the address of
-/// `unit` plus n - 1, beside other slaves on the line. A broadcast of a stop stops all axes; other broadcasts
-/// are ignored. Stops are found behind noise too.
+/// Modbus RTU (Modbus over Serial Line V1.02), in its own thread: an axis without a unit of its own has the
+/// address of `unit` plus its index, beside other slaves on the line. A broadcast of a stop stops all axes;
+/// other broadcasts are ignored. Stops are found behind noise too.
 class RtuServer {
   public:
     struct Options {

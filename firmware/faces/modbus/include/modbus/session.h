@@ -17,14 +17,21 @@ namespace nplc::modbus {
 enum class Silence : std::uint8_t { nothing, stop, safe };
 
 struct Settings {
-    bool low_word_first = false;  ///< word order of two-register values
-    bool writes = true;           ///< false: only stop, safe and hold
+    std::vector<std::uint8_t> units{};  ///< of each axis, unique; missing or 0: by the axis's place
+    bool low_word_first = false;        ///< word order of two-register values
+    bool writes = true;                 ///< false: only stop, safe and hold
     /// Reaction when the operating master is silent for `silence`, or has disconnected.
     Silence on_silence = Silence::nothing;
     base::Milliseconds silence{5'000};
     /// Says why the machine of an axis is stopped for a silent master. From the face's thread.
     std::function<void(const std::string& axis, const std::string& text)> tell{};
 };
+
+/// Unit of the axis at `index`: its own, or that of the first axis plus `index`.
+constexpr std::uint8_t unit_of(const Settings& settings, std::size_t index, std::uint8_t first) {
+    const bool is_fixed = index < settings.units.size() && settings.units[index] != 0;
+    return is_fixed ? settings.units[index] : static_cast<std::uint8_t>(first + index);
+}
 
 /// What the clients of one address have written, and how their last command ended.
 struct Handshake {
@@ -49,10 +56,12 @@ class Unit {
   public:
     static constexpr std::size_t kMostAddresses = 64;
 
-    Unit(faces::AxisModel& axis, const Settings& common) : model(axis), settings(common) {}
+    Unit(faces::AxisModel& axis, const Settings& common, std::uint8_t unit = 1)
+        : model(axis), settings(common), number(unit) {}
 
     faces::AxisModel& model;
     const Settings& settings;
+    const std::uint8_t number;
 
     /// Of more than kMostAddresses the one that was used the longest ago begins anew, and is not armed. Valid
     /// until the next call.
@@ -92,7 +101,7 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// `unit` counts from 1; 0 and 255 are allowed for a single axis. Empty: take() returns the answer later.
+    /// `number` is that of a unit; 0 and 255 too are a single axis's. Empty: take() returns the answer later.
     std::optional<Answer> serve(std::uint8_t number, std::span<const std::uint8_t> pdu, const Moment& moment);
     std::uint64_t number() const { return number_; }
     bool is_waiting() const { return waiting_.has_value(); }

@@ -12,8 +12,8 @@
 namespace nplc::modbus {
 
 /// Modbus TCP (Modbus Messaging on TCP/IP V1.0b), in its own thread. Axis n of a process is unit n, counted
-/// from 1; a single axis also answers units 0 and 255. A client beyond `clients` replaces the one that has
-/// been silent the longest, but never the operating master.
+/// from 1, unless it has a unit of its own; a single axis also answers units 0 and 255. A client beyond
+/// `clients` replaces the one that has been silent the longest, but never the operating master.
 class TcpServer {
   public:
     struct Options {
