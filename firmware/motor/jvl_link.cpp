@@ -229,7 +229,7 @@ void JvlLink::settle(base::Instant now) {
         echo_.learn(now - (on_the_line_ ? left_at_ : line_free_) - kEchoCharacters * character_);
     synchronize();
     expect_ = Expect::nothing;
-    left_at_ = now;
+    if (!on_the_line_) left_at_ = now;
     accepted_ = true;
 }
 
