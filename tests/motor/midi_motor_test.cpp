@@ -75,7 +75,7 @@ TEST_P(MidiMotorTest, AVelocityBeforeTheTargetStartsNothingTowardsTheOldOne) {
     bench.pass(500ms);
     const std::int32_t stopped_at = module.position();
     ASSERT_GT(stopped_at, 10'000);
-    ASSERT_LT(stopped_at, 119'000);
+    ASSERT_TRUE(stopped_at < 119'000);
     bench.order(fast(kPositionV1));
     bench.order(fast(kPositionP1));
     std::int32_t farthest = stopped_at;
