@@ -302,7 +302,7 @@ base::Instant Axis::next(base::Instant now) {
     if (controller_->reset_asked() || is_giving_) return now + kBetweenLooks;
     base::Instant next = controller_->next_poll(now, motor_.next_poll(now));
     next = std::min(
-        {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look(now)});
+        {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look()});
     next = std::min(next, faces_.next(*controller_));
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     controller_->sequence().expect_poll(next, now);

@@ -66,6 +66,7 @@ std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint
 
 void UserConnection::start() {
     readable_ = true;
+    server_due_ = {};
     if (server_) server_->restarted();
 }
 
@@ -110,9 +111,9 @@ bool UserConnection::look_for_serial_port(base::Instant now) {
     return uart_ && uart_->look(journal_.journal(), now);
 }
 
-base::Instant UserConnection::next_look(base::Instant now) {
-    if (server_) server_due_ = server_->next(now);
-    return uart_ ? std::min(server_due_, uart_->next_look()) : server_due_;
+base::Instant UserConnection::next_look() const {
+    const base::Instant next = server_ ? server_due_ : base::kNever;
+    return uart_ ? std::min(next, uart_->next_look()) : next;
 }
 
 }  // namespace nplc::boards

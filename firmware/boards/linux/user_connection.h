@@ -34,7 +34,7 @@ class UserConnection {
     /// To be called after it. True if the serial port has come back with another descriptor.
     bool look_for_serial_port(base::Instant now);
     /// Latest time of the next look().
-    base::Instant next_look(base::Instant now);
+    base::Instant next_look() const;
 
   private:
     std::string open_server(const AxisConfig& config, bool at_once, faces::Seat& operators);
@@ -49,7 +49,7 @@ class UserConnection {
     base::Instant tell_again_{};
     bool is_terminal_ = false;
     bool readable_ = true;
-    base::Instant server_due_ = base::kNever;  ///< known before an edge comes, whose way it would lengthen
+    base::Instant server_due_{};  ///< worked out after the scan: before it, it would lengthen an edge's way
 };
 
 }  // namespace nplc::boards
