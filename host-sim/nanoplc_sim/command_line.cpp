@@ -9,6 +9,7 @@
 #include "arguments/arguments.h"
 #include "arguments/pages.h"
 #include "input_file.h"
+#include "listed.h"
 #include "store/settings.h"
 
 namespace nplc::sim {
@@ -81,12 +82,6 @@ void add_line_options(arguments::App& app, RunOptions& options) {
     add_read(app, "--delay", "SHARE[:TIME]", "characters that arrive late, by up to TIME (5ms)",
              "a share and perhaps a time, such as 1% or 1%:5ms",
              [&options](const std::string& text) { return parse_delay(text, options.faults); });
-}
-
-/// "a, b or c"
-std::string listed(const auto& things) {
-    return fmt::format("{}{}{}", fmt::join(things.begin(), things.end() - 1, ", "),
-                       things.size() > 1 ? " or " : "", things.back());
 }
 
 /// "MAC50, MAC800, or of MIDI MAC23 or MAC34-1"

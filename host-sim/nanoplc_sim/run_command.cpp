@@ -16,6 +16,7 @@
 #include "host/printable.h"
 #include "host/terminal.h"
 #include "input_file.h"
+#include "listed.h"
 #include "outside.h"
 #include "program.h"
 #include "session.h"
@@ -141,7 +142,7 @@ void check_drive(const RunOptions& run) {
     } else if (run.baud && !bauds.empty() &&
                std::find(bauds.begin(), bauds.end(), *run.baud) == bauds.end()) {
         throw InputError(fmt::format("nanoplc-sim: a {} drive's line has {} baud", run.drive->family->name(),
-                                     fmt::join(bauds, " or ")));
+                                     listed(bauds)));
     }
     if (run.rapid || run.old_register_codes)
         throw InputError("nanoplc-sim: --rapid and --old-codes are of a JVL motor's line; leave them out");

@@ -152,6 +152,7 @@ class CommandLine(Case):
         self.refused("run", self.table, "--damage", "101%", says="--damage \"101%\"")
         self.refused("run", self.table, "--delay", "1%:5", says="--delay \"1%:5\"")
         self.refused("run", self.table, "--baud", "0", says="--baud \"0\"")
+        self.refused("run", self.table, "--motor", "MAC34-1", "--baud", "1200", says="line has 9600, 19200 or 38400 baud")
         self.refused("run", self.table, "--seed", "x", says="--seed \"x\"")
         self.refused("run", self.table, "--debounce", "2s", says="--debounce \"2s\"")
 
