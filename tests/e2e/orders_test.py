@@ -215,11 +215,11 @@ class Refused(fleet_case.FleetCase):
                 with open(record, "wb") as file:
                     file.write(damaged)
             service = self.start(self.configure(RESTART))
-            report = self.plant.wait(self.TARGET, lambda report: "nobody knows" in (report["order"]["text"] or ""))
+            report = self.plant.wait(self.TARGET, lambda report: "which orders came before is not known" in (report["order"]["text"] or ""))
             self.assertEqual(report["table"]["sha256"], wanted)
             again, _ = self.build("three", 512)
             self.order(again, 9)
-            self.wait_refused("nobody knows which orders came before")
+            self.wait_refused("which orders came before is not known")
             self.assertEqual(self.end(service), 0)
             self.plant.reports.clear()
             with open(record, "wb") as file:

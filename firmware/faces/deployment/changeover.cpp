@@ -223,7 +223,7 @@ Outcome Changeover::run_ended(const faces::Completion& ended, const faces::AxisI
     if (ended.result == Result::done || ended.result == Result::not_stopped)
         ran_.reset();
     else if (is_stopped_since)
-        forget_run("somebody else has stopped it, too");
+        forget_run("another client has stopped it since");
     else
         forget_run(words_of(ended.result, ended.detail));
     leave_seat(now);

@@ -35,7 +35,7 @@ void Ledger::read() {
         return;
     }
     damage_ = fmt::format(
-        "{} is {}: nobody knows which orders came before; see what runs, then remove it and {}, and only "
+        "{} is {}: which orders came before is not known; see what runs, then remove it and {}, and only "
         "then give a new order",
         path(kRecordFile), is_missing ? "missing" : "damaged", former_path());
     note_(true, damage_);

@@ -35,7 +35,7 @@ bool Deployment::may_go_on() {
     else if (!is_stopped && settings_.activation == Activation::when_stopped)
         waits_ = "waits until the sequence is stopped";
     else if (!active_->image().is_set(gw::kLinkDelivers))
-        waits_ = "waits for the motor: nobody knows whether it stands still";
+        waits_ = "waits for the link to the motor: whether it stands still is not known";
     else
         return true;
     return false;
@@ -113,7 +113,7 @@ void Deployment::activated(bool was_rollback) {
 }
 
 void Deployment::watch() {
-    if (!is_ordered_active()) return end(State::failed, "somebody has made another table active");
+    if (!is_ordered_active()) return end(State::failed, "another table has been activated");
     Trial::Judgement judgement = trial_->watch(active_->image(), moment_.now);
     switch (judgement.verdict) {
         case Trial::Verdict::open:
@@ -135,7 +135,7 @@ void Deployment::fail_trial(const std::string& why) {
 void Deployment::go_back() {
     const Record& record = ledger_->record();
     if (active_->is(record.former_sha256)) return activated(true);
-    if (!is_ordered_active()) return end(State::failed, "somebody has made another table active");
+    if (!is_ordered_active()) return end(State::failed, "another table has been activated");
     if (!may_go_on()) return;
     bool is_missing = false;
     auto former = ledger_->read_former(is_missing);

@@ -12,7 +12,7 @@
 namespace nplc::modbus {
 
 /// The axes as slaves on a serial line, without line and clock: characters in, answers out. An answer that
-/// is not ready when the master already speaks to somebody else is dropped; its request is carried out.
+/// is not ready when the master already speaks to another slave is dropped; its request is carried out.
 class RtuSlave {
   public:
     struct Options {

@@ -161,8 +161,7 @@ class Restart {
         if (order == nullptr || reset != held) return;
         const bool has_condition = by->condition.length != 0 && !is_on_error(by->condition);
         report_.add("W049", has_condition ? by->condition : order->span,
-                    "an ERROR is reset here by itself: on the way from it nobody is asked for an "
-                    "acknowledgement",
+                    "an ERROR is reset here by itself: no acknowledgement is asked for on the way from it",
                     "wait for a button to be pressed, as in ANY ERROR AND R_TRIG(Ack); or write ALLOW W049 "
                     "BECAUSE 'reason'; in the step");
     }
