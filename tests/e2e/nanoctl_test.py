@@ -104,6 +104,10 @@ class Tables(Case):
         self.assertEqual(self.ctl("status")["state"], "stopped")
         self.ctl("verify", other)
 
+    def test_a_table_that_is_active_and_not_stored_is_said(self):
+        self.launch(SIM, "run", self.table, "--realtime", "--mactalk", self.endpoint)
+        self.assertIn("no table is stored", self.ctl("verify", self.table, exit_code=1)["error"])
+
     def test_noise_on_both_lines(self):
         self.start("--drop", "0.2%", "--damage", "0.3%", "--seed", "3")
         proxy = NoisyProxy(self.path("noise"), self.path("port"), 0.002, 7)

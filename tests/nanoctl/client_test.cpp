@@ -376,6 +376,28 @@ TEST(Client, ARunWaitsASecondForTheMotorToConfirmTheStopBefore) {
     EXPECT_GE(bench.wire.now() - begun, GatewayClient::kConfirmationWait);
 }
 
+TEST(Client, AStopOnItsWayIsNoAlarmAndOneThatIsNotConfirmedIs) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.stop_takes = std::chrono::milliseconds{600};
+    bench.gateway.command(Command::stop);
+    StopConfirmation confirmation;
+    const Status on_its_way = bench.status();
+    EXPECT_TRUE(on_its_way.has(gw::kStopUnconfirmed));
+    EXPECT_FALSE(confirmation.is_overdue(on_its_way));
+    EXPECT_FALSE(status_after_stop(bench.gateway).has(gw::kStopUnconfirmed)) << "it is waited for";
+    EXPECT_FALSE(confirmation.is_overdue(bench.status()));
+
+    bench.unit.board.stop_is_confirmed = false;
+    bench.gateway.command(Command::stop);
+    EXPECT_FALSE(confirmation.is_overdue(bench.status())) << "another stop, another second";
+    EXPECT_TRUE(status_after_stop(bench.gateway).has(gw::kStopUnconfirmed));
+    EXPECT_TRUE(confirmation.is_overdue(bench.status()));
+
+    bench.unit.board.link_state = motor::Link::down;
+    EXPECT_TRUE(StopConfirmation{}.is_overdue(bench.status())) << "the motor could not be told";
+}
+
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
     const auto reg = gw::register_of(store::Setting::safe_outputs);

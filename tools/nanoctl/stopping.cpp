@@ -23,6 +23,10 @@ constexpr base::Milliseconds kLastLook{800};
 /// For the question whether it was a gateway.
 constexpr base::Milliseconds kIdentity{1'000};
 
+bool delivers(const Status& status) {
+    return status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
+}
+
 /// The command is repeated until the status confirms it: a message may be lost, and another client may get
 /// the line's answers.
 class Stopping {
@@ -69,9 +73,6 @@ class Stopping {
         return status;
     }
 
-    static bool delivers(const Status& status) {
-        return status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
-    }
     /// By its last status, however long ago that came.
     bool waits_for_motor() const {
         return ordered_at_ && is_ordered(*last_) && (!delivers(*last_) || last_->has(gw::kStopUnconfirmed));
@@ -138,6 +139,26 @@ class Stopping {
 };
 
 }  // namespace
+
+bool StopConfirmation::is_overdue(const Status& status) {
+    if (!status.has(gw::kStopUnconfirmed)) {
+        since_.reset();
+        return false;
+    }
+    if (!since_) since_ = status.uptime;
+    constexpr base::Milliseconds kWait = GatewayClient::kConfirmationWait;
+    return !delivers(status) || base::Milliseconds{status.uptime - *since_} >= kWait;
+}
+
+Status status_after_stop(GatewayClient& gateway) {
+    StopConfirmation confirmation;
+    for (;;) {
+        const Status status(gateway.read_block(gw::STATUS));
+        if (!status.has(gw::kStopUnconfirmed) || confirmation.is_overdue(status)) return status;
+        gateway.look_for_interruption();
+        gateway.master().pause(kBetweenLooks);
+    }
+}
 
 Status stop_machine(GatewayClient& gateway, gw::Command command) {
     struct Deadline {

@@ -6,6 +6,7 @@
 #include "cli/certificates.h"
 #include "cli/session.h"
 #include "digest/digest.h"
+#include "nanoctl/stopping.h"
 #include "nanoctl/texts.h"
 #include "nanoctl/why.h"
 
@@ -46,7 +47,7 @@ Json document_of(const Status& status, const Names& names) {
             {"virtual_motor", status.has(gw::kVirtualMotor)}};
 }
 
-std::string line_of(const Status& status, const Names& names) {
+std::string line_of(const Status& status, const Names& names, bool stop_is_overdue) {
     std::string text = fmt::format("{}, step {}, timer {} ms, counter {}, in {}, out {}",
                                    name_of(status.run_state), names.step(status.step), status.timer,
                                    status.counter, signals_text(status.inputs, 6, names, true),
@@ -55,8 +56,10 @@ std::string line_of(const Status& status, const Names& names) {
     if (status.has(gw::kMotorError)) text += ", ERROR";
     if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
     text += held_remark(status);
-    if (status.has(gw::kStopUnconfirmed))
+    if (stop_is_overdue)
         text += ", STOP NOT CONFIRMED by the motor: it may be moving (mend the line, or give-up-stop)";
+    else if (status.has(gw::kStopUnconfirmed))
+        text += ", the motor is being stopped";
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
     if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of(status.safe_reason));
@@ -119,6 +122,18 @@ Json why_document(const Why& why) {
     return list;
 }
 
+/// Both of one state of the tables: read again if one was exchanged between.
+std::pair<Block, Status> identity_and_status(GatewayClient& gateway) {
+    constexpr int kTries = 5;
+    Block about = gateway.read_block(gw::IDENTITY);
+    for (int i = 1;; ++i) {
+        const Status status = status_after_stop(gateway);
+        const Block after = gateway.read_block(gw::IDENTITY);
+        if (after == about || i == kTries) return {after, status};
+        about = after;
+    }
+}
+
 struct StatusOptions {
     bool why = false;
 };
@@ -126,14 +141,13 @@ struct StatusOptions {
 void show_status(Session& session, const StatusOptions& options) {
     session.right_names();
     GatewayClient& gateway = session.gateway();
-    const Block about = gateway.read_block(gw::IDENTITY);
+    const auto [about, status] = identity_and_status(gateway);
     const std::optional<digest::Digest> digest = read_proof(gateway).digest;
     const Block counters = gateway.read_block(gw::LINK_LOSSES);
-    const Status status = session.status();
     const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
     const auto count = [&](gw::Number number) { return counters[number - gw::LINK_LOSSES]; };
     const std::uint32_t flags = of(gw::STORE_FLAGS);
-    std::string text = line_of(status, session.names());
+    std::string text = line_of(status, session.names(), status.has(gw::kStopUnconfirmed));
     text +=
         fmt::format("\nfirmware {}, up for {}", version_text(of(gw::FW_VERSION)), time_text(status.uptime));
     text += fmt::format("\nactive table {}; stored table {}",
@@ -193,15 +207,17 @@ struct WatchOptions {
 void watch(Session& session, const WatchOptions& options) {
     session.right_names();
     std::string last;
+    StopConfirmation confirmation;
     command_line::watch(session, base::Milliseconds{options.interval_ms}, options.seconds, [&] {
         const Status status = session.status();
         Status quiet = status;
         quiet.timer = 0;
         quiet.force_left = 0;
-        const std::string line = line_of(quiet, session.names());
+        const bool is_overdue = confirmation.is_overdue(status);
+        const std::string line = line_of(quiet, session.names(), is_overdue);
         if (line != last || options.all)
             session.tell(
-                fmt::format("{:>12}  {}", time_text(status.uptime), line_of(status, session.names())),
+                fmt::format("{:>12}  {}", time_text(status.uptime), line_of(status, session.names(), is_overdue)),
                 document_of(status, session.names()));
         last = line;
     });

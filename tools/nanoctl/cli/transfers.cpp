@@ -159,6 +159,19 @@ set_points::Record record_if_readable(const std::string& file, const std::string
     }
 }
 
+/// What keeps the gateway's tables from being the file's.
+std::string difference(const Block& about, bool active, bool stored, bool asks_certificate) {
+    const auto of = [&](const char* name, gw::Number bytes) {
+        if (about[bytes - gw::IDENTITY] == 0) return fmt::format("no table is {}", name);
+        return fmt::format("the {} table of the gateway is another one{}", name,
+                           asks_certificate ? ", or has not this certificate" : "");
+    };
+    std::string text;
+    if (!stored) text = of("stored", gw::STORED_BYTES);
+    if (!active) text += (text.empty() ? "" : "; ") + of("active", gw::TABLE_BYTES);
+    return text;
+}
+
 void verify(Session& session, const VerifyOptions& options) {
     const auto& [file, certificate, all_bytes] = options;
     const auto table = read_table(file);
@@ -189,11 +202,7 @@ void verify(Session& session, const VerifyOptions& options) {
             fmt::format("{}: the gateway has no table, neither stored nor active; upload it", file));
     if (!active || !stored)
         throw Refused(gw::Result::wrong_check, gw::TABLE_CRC, 0,
-                      fmt::format("{}: {} table of the gateway is another one{}", file,
-                                  active   ? "the stored"
-                                  : stored ? "the active"
-                                           : "the stored and the active",
-                                  asked ? ", or has not this certificate" : ""));
+                      fmt::format("{}: {}", file, difference(about, active, stored, asked.has_value())));
     session.tell(
         fmt::format("{}: stored and active in the gateway, CRC {:08X}h{}", file, crc,
                     all_bytes ? ", every byte read" : ""),

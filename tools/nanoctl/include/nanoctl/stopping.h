@@ -1,6 +1,7 @@
 #pragma once
 
-#include <stdexcept>
+#include <cstdint>
+#include <optional>
 
 #include "nanoctl/gateway_client.h"
 #include "nanoctl/status.h"
@@ -22,5 +23,20 @@ class NotConfirmed : public mactalk_client::EndedWith<mactalk_client::kNotConfir
 /// most 1 s later, independently of the answers. Returns that status. Throws NotConfirmed on any error,
 /// Interrupted with the same text, and Refused for a hold of a sequence that does not run.
 Status stop_machine(GatewayClient& gateway, gw::Command command);
+
+/// A motor that moves needs some time to stop and to confirm it; what lasts longer is an alarm.
+class StopConfirmation {
+  public:
+    /// Statuses of one gateway in the order of their times. True if a stop is not confirmed and the link does
+    /// not deliver, or kConfirmationWait of the gateway's time has passed since the first such status.
+    bool is_overdue(const Status& status);
+
+  private:
+    std::optional<std::uint32_t> since_;  ///< uptime, ms
+};
+
+/// The status; while a stop is not confirmed and the link delivers, read again for kConfirmationWait at the
+/// most. Throws what GatewayClient does.
+Status status_after_stop(GatewayClient& gateway);
 
 }  // namespace nplc::nanoctl
