@@ -46,6 +46,14 @@ class Case(ProgramCase):
         process.stderr.close()
         self.running.remove(process)
 
+    def watcher(self):
+        """`nanoctl watch` of every status, once it has said the first."""
+        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "--json", "watch", "--all",
+                                    "--interval", "0"], stdout=subprocess.PIPE, text=True)
+        self.running.append(watcher)
+        self.assertTrue(json.loads(watcher.stdout.readline())["ok"])
+        return watcher
+
     def call(self, *arguments, port=None, patience=2000):
         return subprocess.run(
             [NANOCTL, "--port", port or self.endpoint, "--patience", str(patience), *arguments],
@@ -206,14 +214,15 @@ class Running(Case):
     def test_the_link_to_the_motor_is_cut_in_mid_move_and_restored(self):
         scenario = self.path("cut.scn")
         with open(scenario, "w", encoding="utf-8") as file:
-            file.write("once step = 2 after 100 ms line cut, after 1 s line restored\n")
+            file.write("once step = 2 after 100 ms line cut, after 3 s line restored\n")
         process = self.start()
         self.ctl("upload", self.table)
         self.end(process)
         self.start("--scenario", scenario)
         self.until(lambda status: status["step"] == 1)
+        watcher = self.watcher()
         self.ctl("force", "IN0=1", "IN5=1")
-        lost = self.until(lambda status: status["safe_reason"] == "link down")
+        lost = next(status for status in map(json.loads, watcher.stdout) if status["safe_reason"] == "link down")
         self.assertEqual(lost["outputs"], 0)
         # Step 5 acknowledges while IN5 is on (01h); then the link counts as up again.
         self.ctl("force", "IN0=0", "IN5=1")
@@ -239,10 +248,7 @@ class Running(Case):
     def test_two_clients_at_once(self):
         self.start()
         self.ctl("upload", self.table, "--run")
-        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "--json", "watch", "--all",
-                                    "--interval", "0"], stdout=subprocess.PIPE, text=True)
-        self.running.append(watcher)
-        self.assertTrue(json.loads(watcher.stdout.readline())["ok"])
+        watcher = self.watcher()
         self.ctl("verify", self.table, "--bytes")
         self.ctl("stop")
         for line in watcher.stdout:

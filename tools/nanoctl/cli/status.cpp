@@ -216,9 +216,9 @@ void watch(Session& session, const WatchOptions& options) {
         const bool is_overdue = confirmation.is_overdue(status);
         const std::string line = line_of(quiet, session.names(), is_overdue);
         if (line != last || options.all)
-            session.tell(
-                fmt::format("{:>12}  {}", time_text(status.uptime), line_of(status, session.names(), is_overdue)),
-                document_of(status, session.names()));
+            session.tell(fmt::format("{:>12}  {}", time_text(status.uptime),
+                                     line_of(status, session.names(), is_overdue)),
+                         document_of(status, session.names()));
         last = line;
     });
 }
