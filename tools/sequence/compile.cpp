@@ -238,10 +238,11 @@ Compilation compile(const Sources& sources) {
     spread_outputs(program, scope);
     Plan plan = check(program, scope, checks);
     if (!plan.steps.empty() && plan.steps.front().number == 0)
+    const SequenceCalls calls(program, sources);
         result.symbols.steps[0] = plan.steps.front().name;
-    if (syntax_sound && !checks.has_errors()) check_shared_timer(plan, checks);
+    if (syntax_sound && !checks.has_errors()) check_shared_timer(plan, calls, checks);
     if (syntax_sound && !checks.has_errors()) check_left_on(program, plan, result.symbols, checks);
-    if (syntax_sound && !checks.has_errors()) make_copies(plan, result, checks);
+    if (syntax_sound && !checks.has_errors()) make_copies(plan, calls, result, checks);
     if (syntax_sound && !checks.has_errors()) make_helper_steps(plan, result, checks);
     name_origins(program, scope, result);
     add_copies_to_groups(result.symbols);

@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "compiler/copy_names.h"
+#include "compiler/numbers_taken.h"
 
 namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kNobody = SIZE_MAX;
+constexpr std::size_t kMostCounted = 512;  ///< copies, when there are too many
 
 /// The outcome in one case of a copy.
 struct Outcome {
@@ -31,7 +33,8 @@ struct Outcome {
 
 class Copies {
   public:
-    Copies(Plan& plan, Compilation& result, Report& report) : plan_(plan), result_(result), report_(report) {
+    Copies(Plan& plan, const SequenceCalls& calls, Compilation& result, Report& report)
+        : plan_(plan), calls_(calls), result_(result), report_(report) {
         for (std::size_t i = 0; i < plan.steps.size(); ++i) {
             taken_.set(plan.steps[i].number);
             index_[plan.steps[i].number] = i;
@@ -44,8 +47,10 @@ class Copies {
         reach(CopyKey{zero == index_.end() ? 0 : zero->second, 0, 0, 0}, {});
         for (std::size_t next = 0; next < order_.size() || reach_lost(); ++next) {
             if (report_.has_errors()) return;
+            if (missing_ && order_.size() > kMostCounted) break;
             explore(order_[next]);
         }
+        if (missing_) return refuse_for_room();
         std::vector<StepPlan> made;
         for (const CopyKey& key : order_) made.push_back(copy_of(key));
         name_copies(plan_, order_, made, result_);
@@ -110,8 +115,11 @@ class Copies {
         if (first != order_.end()) {
             number = 1;
             while (number <= kLastNamed && taken_.test(number)) ++number;
-            if (step(key).no_helper || number > kLastNamed) refuse(key, *first, way);
-            if (number <= kLastNamed) taken_.set(number);
+            if (step(key).no_helper) refuse({key, *first, way}, "delete NO_HELPER", "");
+            if (number <= kLastNamed)
+                taken_.set(number);
+            else if (!missing_)
+                missing_ = {key, *first, way};
         }
         numbers_.emplace(key, number);
         ways_.emplace(key, way);
@@ -119,29 +127,30 @@ class Copies {
         return number;
     }
 
-    void refuse(const CopyKey& key, const CopyKey& first, Span way) {
+    /// A copy that cannot be there.
+    struct Refused {
+        CopyKey key;
+        CopyKey first;  ///< of the same step
+        Span way;
+    };
+
+    Diagnostic& refuse(const Refused& refused, const char* remedy, const std::string& shortage) {
+        const auto& [key, first, way] = refused;
         const StepPlan& from = step(key);
+        const std::string shown = calls_.shown(from.name);
         const std::uint8_t differs = key.latched ^ first.latched;
-        const bool no_room = !from.no_helper;
-        const char* help = no_room ? "all numbers are used: join steps, or let both ways do the same"
-                                   : "delete NO_HELPER, or let both ways do the same";
         if (differs == 0) {
             const Memory& memory = from.memory;
             const Span place =
                 memory.edges.empty() ? memory.timer_span.value_or(from.span) : memory.edges.front().span;
             const std::string why =
                 memory.counts_halves()
-                    ? fmt::format("'{}' needs {} copies of itself to count its WITHIN beside BLINKING",
-                                  from.name, memory.halves() - 1)
-                    : fmt::format("'{}' needs a copy of itself for this", from.name);
-            Diagnostic& d =
-                report_.add("E074", place, why,
-                            !no_room                 ? "delete NO_HELPER"
-                            : memory.counts_halves() ? "not so many numbers are free: blink slower, "
-                                                       "or let the limit be shorter"
-                                                     : "all numbers are used: join steps");
+                    ? fmt::format("{} needs {} copies of itself to count its WITHIN beside BLINKING", shown,
+                                  memory.halves() - 1)
+                    : fmt::format("{} needs a copy of itself for this", shown);
+            Diagnostic& d = report_.add("E074", place, why, shortage + remedy);
             d.notes.push_back({from.span, "the step is here"});
-            return;
+            return d;
         }
         std::size_t bit = 0;
         while (((differs >> bit) & 1) == 0) ++bit;
@@ -149,13 +158,26 @@ class Copies {
         const bool on = ((key.latched >> bit) & 1) != 0;
         Diagnostic& d = report_.add(
             "E074", from.span,
-            fmt::format("'{}' is reached with '{}' on and with it off, which takes two steps of the table",
-                        from.name, name),
-            help);
+            fmt::format("{} is reached with '{}' on and with it off, which takes two steps of the table",
+                        shown, name),
+            fmt::format("{}{}, or let both ways do the same", shortage, remedy));
         const Span other = ways_.at(first);
         if (way.length != 0) d.notes.push_back({way, fmt::format("on this way it is {}", on ? "on" : "off")});
         if (other.length != 0)
             d.notes.push_back({other, fmt::format("on this way it is {}", on ? "off" : "on")});
+        return d;
+    }
+
+    void refuse_for_room() {
+        const std::size_t needed = order_.size() - index_.count(0);
+        const bool is_counted = order_.size() <= kMostCounted;
+        const std::string shortage = fmt::format(
+            "{}{} numbers are needed and there are {}: {}{} are missing; ", is_counted ? "" : "more than ",
+            needed, kLastNamed, is_counted ? "" : "more than ", needed - kLastNamed);
+        const bool blinks = step(missing_->key).memory.counts_halves();
+        Diagnostic& d =
+            refuse(*missing_, blinks ? "blink slower, or let the limit be shorter" : "join steps", shortage);
+        if (is_counted) note_numbers_taken(order_, plan_, calls_, d);
     }
 
     Outcome outcome(const CopyKey& key, std::size_t rule, std::size_t c) const {
@@ -280,6 +302,7 @@ class Copies {
     }
 
     Plan& plan_;
+    const SequenceCalls& calls_;
     Compilation& result_;
     Report& report_;
     std::bitset<64> taken_;
@@ -287,53 +310,18 @@ class Copies {
     std::vector<CopyKey> order_;                 ///< in the order of their discovery
     std::map<CopyKey, std::uint8_t> numbers_;
     std::map<CopyKey, Span> ways_;
+    std::optional<Refused> missing_;  ///< the first one without a number
 };
 
 }  // namespace
 
-void make_copies(Plan& plan, Compilation& result, Report& report) {
+void make_copies(Plan& plan, const SequenceCalls& calls, Compilation& result, Report& report) {
     const bool is_needed = std::any_of(plan.steps.begin(), plan.steps.end(), [](const StepPlan& step) {
         return !step.memory.is_empty() ||
                std::any_of(step.rules.begin(), step.rules.end(),
                            [](const Rule& rule) { return rule.action.switches(); });
     });
-    if (is_needed) Copies(plan, result, report).run();
-}
-
-void check_shared_timer(const Plan& plan, Report& report) {
-    std::map<std::uint8_t, Span> changed;  // steps entered with a timer that such a step has changed
-    const auto note = [&](const StepPlan& from, Span by) {
-        bool is_new = false;
-        for_each_rule(from, [&](const Rule& rule) {
-            if (!leaves(from, rule) || rule.action.timer) return;
-            is_new = changed.emplace(*rule.action.next, by).second || is_new;
-        });
-        return is_new;
-    };
-    for (bool again = true; again;) {
-        again = false;
-        for (const StepPlan& step : plan.steps) {
-            if (step.memory.timer_span) {
-                again = note(step, *step.memory.timer_span) || again;
-            } else if (const auto by = changed.find(step.number); by != changed.end()) {
-                again = note(step, by->second) || again;
-            }
-        }
-    }
-    for (const StepPlan& step : plan.steps) {
-        const auto by = changed.find(step.number);
-        if (by == changed.end() || step.memory.timer_span) continue;
-        for (const Rule& rule : step.rules) {
-            if (!depends_on(rule.when, kTimerZero) || rule.condition.length == 0) continue;
-            report
-                .add("E073", rule.condition,
-                     fmt::format("'{}' is entered with a timer that another step has used for itself",
-                                 step.name),
-                     fmt::format("preset it on the way: TIMER := T#500ms; NEXT := {};", step.name))
-                .notes.push_back({by->second, "it is used here"});
-            break;
-        }
-    }
+    if (is_needed) Copies(plan, calls, result, report).run();
 }
 
 }  // namespace nplc::seqc

@@ -132,10 +132,17 @@ class Expansion {
         std::string key = own + "\n" + upper(back.text);
         for (const ast::Argument& argument : call.call) key += "\n" + upper(argument.text);
         const auto known = instances_.find(key);
-        if (known != instances_.end()) return known->second;
+        if (known != instances_.end()) {
+            for (std::size_t i = 0; i < sequence->steps.size(); ++i)
+                program_.steps[known->second + i].origin->calls.push_back(call.span);
+            return program_.steps[known->second].name;
+        }
         std::vector<std::string> now = callers;
         now.push_back(own);
-        return instances_[key] = add_steps(*sequence, call, back, now);
+        const std::size_t first = program_.steps.size();
+        instances_[key] = first;
+        add_steps(*sequence, call, back, now);
+        return program_.steps[first].name;
     }
 
     bool fits(const ast::Sequence& sequence, const Statement& call) {
@@ -162,8 +169,8 @@ class Expansion {
         return true;
     }
 
-    ast::Name add_steps(const ast::Sequence& sequence, const Statement& call, const ast::Name& back,
-                        const std::vector<std::string>& callers) {
+    void add_steps(const ast::Sequence& sequence, const Statement& call, const ast::Name& back,
+                   const std::vector<std::string>& callers) {
         Substitution substitution(sequence.parameters, call.call, program_.texts);
         std::vector<ast::Name> names;
         for (const ast::Step& step : sequence.steps) {
@@ -190,7 +197,9 @@ class Expansion {
             step.name = names[i];
             ast::Origin& origin = step.origin.emplace();
             origin.sequence = sequence.name;
+            origin.step = sequence.steps[i].name.text;
             origin.back = back;
+            origin.calls.push_back(call.span);
             for (std::size_t k = 0; k < sequence.parameters.size(); ++k)
                 origin.arguments.emplace_back(sequence.parameters[k].name.text, call.call[k].text);
             const auto [first, is_first] = families_.try_emplace(
@@ -199,7 +208,6 @@ class Expansion {
             program_.steps.push_back(std::move(step));
             callers_.push_back(callers);
         }
-        return names.front();
     }
 
     std::string free_name(const std::string& wanted) const {
@@ -232,7 +240,7 @@ class Expansion {
 
     ast::Program& program_;
     Report& report_;
-    std::map<std::string, ast::Name> instances_;
+    std::map<std::string, std::size_t> instances_;      ///< the first step of each
     std::map<std::string, std::string_view> families_;  ///< the first step of each name
     std::vector<std::vector<std::string>> callers_;     ///< of each step: the sequences that led to it
 };

@@ -199,8 +199,10 @@ struct Allowance {
 /// For a step of a SEQUENCE, in one call.
 struct Origin {
     Name sequence;
-    Name back;               ///< the return step of the call
-    std::string_view first;  ///< the same step of the first call; empty: this is the first call
+    std::string_view step;    ///< its name in the SEQUENCE
+    Name back;                ///< the return step of the call
+    std::vector<Span> calls;  ///< all those with the same arguments and return step share the steps
+    std::string_view first;   ///< the same step of the first call; empty: this is the first call
     std::vector<std::pair<std::string_view, std::string_view>> arguments;  ///< parameter and its argument
 };
 
