@@ -274,6 +274,58 @@ std::string selected_name(const MotorOrder& order, std::uint8_t reg, const Names
     return own == plain ? plain : fmt::format("{} ({})", own, plain);
 }
 
+bool orders_home(const Group& group) {
+    const auto& orders = group.outcome.orders;
+    return std::any_of(orders.begin(), orders.end(),
+                       [](const MotorOrder& order) { return table::kind_of(order) == OrderKind::home; });
+}
+
+/// V011: a homing with a velocity that is 0.
+std::vector<Finding> find_home_stands(const Subject& subject) {
+    std::vector<Finding> findings;
+    if (!zero_registers(subject).test(registers::V_HOME)) return findings;
+    std::array<bool, 63> told{};
+    for (const Group* group : used_groups(subject.explorer)) {
+        if (group->error || !orders_home(*group)) continue;
+        const Explorer::Edge& edge = subject.explorer.first_edge_with(*group);
+        const std::uint8_t step = subject.explorer.place(edge.to).step;
+        auto course = told[step] ? std::nullopt : subject.courses.with(edge);
+        if (!course) continue;
+        told[step] = true;
+        findings.push_back(
+            {"V011", step,
+             fmt::format("on the way into step {} a homing is ordered while V_HOME is 0, or may "
+                         "be, by the value it is set to: the motor stands",
+                         step_name(subject.names, step)),
+             std::move(*course)});
+    }
+    return findings;
+}
+
+/// V014 for the registers of a homing, which it uses without a selection.
+std::optional<Finding> find_home_not_written(const Subject& subject, const std::array<bool, 128>& written) {
+    std::vector<std::string_view> missing;
+    if (!written[registers::V_HOME]) missing.push_back("V_HOME");
+    if (!written[registers::T_HOME]) missing.push_back("T_HOME");
+    if (missing.empty()) return std::nullopt;
+    for (const Group* group : used_groups(subject.explorer)) {
+        if (!orders_home(*group)) continue;
+        const Explorer::Edge& edge = subject.explorer.first_edge_with(*group);
+        auto course = subject.courses.with(edge);
+        if (!course) continue;
+        const std::uint8_t step = subject.explorer.place(edge.to).step;
+        const bool both = missing.size() > 1;
+        return Finding{"V014", step,
+                       fmt::format("on the way into step {} a homing is ordered, and nothing ever writes {}: "
+                                   "{} the value{} stored "
+                                   "in the motor",
+                                   step_name(subject.names, step), fmt::join(missing, " and "),
+                                   both ? "they hold" : "it holds", both ? "s" : ""),
+                       std::move(*course)};
+    }
+    return std::nullopt;
+}
+
 /// V014
 std::vector<Finding> find_never_written(const Subject& subject) {
     struct Selection {
@@ -305,6 +357,7 @@ std::vector<Finding> find_never_written(const Subject& subject) {
                          step_name(subject.names, step), selected_name(*selection.order, reg, subject.names)),
              std::move(*course)});
     }
+    if (auto finding = find_home_not_written(subject, written)) findings.push_back(std::move(*finding));
     return findings;
 }
 
@@ -313,8 +366,9 @@ std::vector<Finding> find_never_written(const Subject& subject) {
 std::vector<Finding> check_motor(const Subject& subject) {
     const Sensitivity sensitivity(subject.explorer.machine());
     std::vector<Finding> findings = find_unseen_ends(subject, sensitivity);
-    for (auto& more : {find_motor_stands(subject, sensitivity), find_undone(subject),
-                       find_never_written(subject), find_no_limit(subject, sensitivity)})
+    for (auto& more :
+         {find_motor_stands(subject, sensitivity), find_home_stands(subject), find_undone(subject),
+          find_never_written(subject), find_no_limit(subject, sensitivity)})
         findings.insert(findings.end(), more.begin(), more.end());
     // Steps whose INPOS may never come have been reported already
     std::array<bool, 63> may_wait_for_ever{};
