@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/story.h"
@@ -12,10 +16,20 @@ namespace {
 
 /// The relation of a scan of a group to the timer's zero, or to the counter's.
 struct Use {
-    ImageSet decided;     ///< images with which the zero decides the scan's effect
-    bool sets = false;    ///< the timer or the counter
-    bool leaves = false;  ///< the step, not only one of its copies
+    ImageSet decided;            ///< images with which the zero decides the scan's effect
+    ImageSet leads;              ///< those of them with which it decides the next step
+    ImageSet acts;               ///< or else what is sent, or a preset; with the rest of them outputs alone
+    std::uint8_t shows_on = 0;   ///< outputs that it decides alone: on at zero
+    std::uint8_t shows_off = 0;  ///< off at zero
+    bool sets = false;           ///< the timer or the counter
+    bool leaves = false;         ///< the step, not only one of its copies
 };
+
+/// In more than step and outputs.
+bool does_otherwise(const table::Outcome& a, const table::Outcome& b) {
+    return a.timer != b.timer || a.counter != b.counter || a.counter_preset != b.counter_preset ||
+           a.orders != b.orders;
+}
 
 std::vector<Use> uses_of(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
     const Machine& machine = subject.explorer.machine();
@@ -34,6 +48,23 @@ std::vector<Use> uses_of(const Subject& subject, const Sensitivity& sensitivity,
                 if (timer ? timer_zero : counter_zero) {
                     use.decided = group.images & (timer ? sensitivity.to_timer(step, counter_zero)
                                                         : sensitivity.to_counter(step, timer_zero));
+                    for (unsigned image = 0; image < 256 && use.decided.any(); ++image) {
+                        if (!use.decided.test(image)) continue;
+                        const Group& other =
+                            machine.group_with(step, !timer && timer_zero, timer && counter_zero,
+                                               static_cast<std::uint8_t>(image));
+                        const table::Outcome& at_zero = group.outcome;
+                        if (origin(at_zero.next) != origin(other.outcome.next)) {
+                            use.leads.set(image);
+                        } else if (does_otherwise(at_zero, other.outcome)) {
+                            use.acts.set(image);
+                        } else if (at_zero.outputs && other.outcome.outputs) {
+                            const unsigned zero = *at_zero.outputs;
+                            const unsigned running = *other.outcome.outputs;
+                            use.shows_on = static_cast<std::uint8_t>(use.shows_on | (zero & ~running));
+                            use.shows_off = static_cast<std::uint8_t>(use.shows_off | (~zero & running));
+                        }
+                    }
                 }
             }
         }
@@ -41,7 +72,22 @@ std::vector<Use> uses_of(const Subject& subject, const Sensitivity& sensitivity,
     return uses;
 }
 
-/// V007: a zero that a step waits for although it was never set, or has already been used by another step.
+/// "OUT0 is on at once"
+std::string shown_at_once(const Use& use, const Names& names) {
+    std::vector<std::string> parts;
+    const auto add = [&](std::uint8_t outputs, const char* level) {
+        if (outputs == 0) return;
+        parts.push_back(fmt::format("{} {} {}", outputs_text(outputs, names),
+                                    std::popcount(outputs) > 1 ? "are" : "is", level));
+    };
+    add(use.shows_on, "on");
+    add(use.shows_off, "off");
+    return parts.empty() ? "its outputs are those at zero from the beginning"
+                         : fmt::format("{} from the beginning", fmt::join(parts, ", "));
+}
+
+/// V007: a zero that a step waits for, or shows, although it was never set or has already been used by
+/// another step.
 std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
     const Explorer& explorer = subject.explorer;
     const std::vector<Use> uses = uses_of(subject, sensitivity, timer);
@@ -54,24 +100,45 @@ std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensi
         if (makes_stale[edge.group])
             walk.begin_with(edge, uses[edge.group].decided & explorer.images_of(edge), 0);
     }
-    std::vector<Finding> findings;
-    std::array<bool, 63> told{};
+    // A step that waits is told of before one that shows the zero
+    enum Kind : std::uint8_t { kLeads, kActs, kShows, kKinds };
+    std::array<std::array<std::optional<Finding>, 63>, kKinds> found;
+    std::vector<std::uint8_t> steps;  // in the order of discovery
+    const auto tell = [&](Kind kind, const Walk::Scan& scan, const ImageSet& images, const Use& use) {
+        const std::uint8_t step = explorer.place(scan.edge.from).step;
+        if (found[kind][step] || images.none()) return;
+        if (std::find(steps.begin(), steps.end(), step) == steps.end()) steps.push_back(step);
+        const char* what = timer ? "timer" : "counter";
+        const std::string unset =
+            fmt::format("the {} was not set since power-up or since it last led to another step", what);
+        const std::string name = step_name(subject.names, step);
+        const std::string zero = timer ? "TIMER.Q" : "COUNTER.Q";
+        const std::string text =
+            kind == kLeads
+                ? fmt::format("step {} waits for {}, and {}: it goes on at once", name, zero, unset)
+            : kind == kActs
+                ? fmt::format("step {} does something with {}, and {}: it does so at once", name, zero, unset)
+                : fmt::format("step {} shows {}, and {}: {}", name, zero, unset,
+                              shown_at_once(use, subject.names));
+        found[kind][step] = {"V007", step, text, scan.course(images)};
+    };
     walk.all([&](const Walk::Scan& scan) {
         const Use& use = uses[scan.edge.group];
         if (!use.sets) scan.go_on(0);
         if (use.decided.none()) return;
-        const std::uint8_t step = explorer.place(scan.edge.from).step;
         const ImageSet images = use.decided & scan.images();
-        if (told[step] || images.none()) return;
-        told[step] = true;
-        findings.push_back(
-            {"V007", step,
-             fmt::format("step {} waits for {}.Q, and the {} was not set since power-up or since it last "
-                         "led to another step: it goes on at once",
-                         step_name(subject.names, step), timer ? "TIMER" : "COUNTER",
-                         timer ? "timer" : "counter"),
-             scan.course(images)});
+        tell(kLeads, scan, images & use.leads, use);
+        tell(kActs, scan, images & use.acts, use);
+        tell(kShows, scan, images & ~use.leads & ~use.acts, use);
     });
+    std::vector<Finding> findings;
+    for (const std::uint8_t step : steps) {
+        for (auto& of_kind : found) {
+            if (!of_kind[step]) continue;
+            findings.push_back(std::move(*of_kind[step]));
+            break;
+        }
+    }
     return findings;
 }
 
