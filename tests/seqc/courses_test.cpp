@@ -134,6 +134,17 @@ TEST_F(Courses, ATimerThatOnlyLimitsAStepAwaitsNoEndOfAMove) {
         EXPECT_EQ(found_in(with_a_move(rest)), std::set<std::string>{}) << rest;
 }
 
+TEST_F(Courses, ATableWithItsSymbolsIsJudgedAsItsProgram) {
+    write("p.seq", with_a_move("IF NOT IN1 WITHIN T#2s THEN NEXT := Back; ELSE NEXT := Fault; END_IF"));
+    ASSERT_EQ(run("verify p.seq"), 0);
+    const std::string finding =
+        ": a move is ordered on the way into step Go, and no step after it looks at INPOS";
+    ASSERT_NE(read("out").find("advice V009" + finding), std::string::npos) << read("out");
+    ASSERT_EQ(run("build p.seq -o p.bin"), 0);
+    ASSERT_EQ(run("verify p.bin"), 0);
+    EXPECT_NE(read("out").find("advice V009" + finding), std::string::npos) << read("out");
+}
+
 TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     write("p.seq",
           "PROGRAM P\nMOTOR MAC140;\n"

@@ -40,6 +40,25 @@ std::string blink_symbols() {
     return write_symbols(blink(), kBlink, "here/blink.seq");
 }
 
+TEST(SymbolFileWriting, HoldsWhichTimersAreLimits) {
+    const std::string text =
+        "PROGRAM P\nMOTOR MAC140;\n"
+        "STEP S: OWN ERROR; IF IN0 WITHIN T#2s THEN NEXT := T; ELSE NEXT := T; END_IF END_STEP\n"
+        "STEP T: OWN ERROR; ENTRY TIMER := T#1s; IF TIMER.Q THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n";
+    const Compilation compilation = compile(text);
+    ASSERT_TRUE(compilation.ok);
+    EXPECT_EQ(compilation.symbols.timer_is_limit, std::uint64_t{1} << 1);
+    std::string written = write_symbols(compilation, text, "p.seq");
+    EXPECT_EQ(read_symbols(written).file.symbols, compilation.symbols);
+    // As older ones were written
+    const std::string member = ",\"timer_is_limit\":true";
+    ASSERT_NE(written.find(member), std::string::npos) << written;
+    written.erase(written.find(member), member.size());
+    const SymbolReading old = read_symbols(written);
+    EXPECT_EQ(old.error, "");
+    EXPECT_EQ(old.file.symbols.timer_is_limit, 0U);
+}
+
 TEST(SymbolFileWriting, HoldsWhatTheProgramSays) {
     const Compilation compilation = blink();
     const Json file = Json::parse(blink_symbols());

@@ -156,7 +156,8 @@ void name_origins(const ast::Program& program, const Scope& scope, Compilation& 
 void note_limits(const Plan& plan, Compilation& result) {
     for (const StepPlan& step : plan.steps) {
         const bool is_limit = step.memory.limit != 0 || step.memory.blink_for != 0;
-        if (is_limit && step.number <= kLastNamed) result.timer_is_limit |= std::uint64_t{1} << step.number;
+        if (is_limit && step.number <= kLastNamed)
+            result.symbols.timer_is_limit |= std::uint64_t{1} << step.number;
     }
 }
 
@@ -237,8 +238,8 @@ Compilation compile(const Sources& sources) {
     Scope scope(program, sources.text(), checks, result);
     spread_outputs(program, scope);
     Plan plan = check(program, scope, checks);
-    if (!plan.steps.empty() && plan.steps.front().number == 0)
     const SequenceCalls calls(program, sources);
+    if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
     if (syntax_sound && !checks.has_errors()) check_shared_timer(plan, calls, checks);
     if (syntax_sound && !checks.has_errors()) check_left_on(program, plan, result.symbols, checks);

@@ -49,7 +49,6 @@ struct VerifyArguments {
 };
 
 verify::Names names_for(const Input& input) {
-    if (input.program) return verify_names(*input.program);
     return input.symbols ? verify_names(*input.symbols) : verify_names();
 }
 

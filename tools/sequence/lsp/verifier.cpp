@@ -85,7 +85,7 @@ VerifyOutcome verify_program(const VerifyJob& job) {
     if (!program.ok) return outcome;
     const auto loaded = sequencer::Table::load(program.table);
     if (!loaded.ok) return outcome;
-    const verify::Names names = verify_names(program);
+    const verify::Names names = verify_names(program.symbols);
     const PropertyReading reading = properties_of(job.sources, program.symbols);
     verify::Options options;
     options.order_time = order_times(program.symbols.drive != nullptr);

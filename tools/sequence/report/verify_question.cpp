@@ -34,16 +34,11 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
 
 verify::Names verify_names(const Symbols& symbols) {
     verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
+    names.timer_is_limit = symbols.timer_is_limit;
     for (std::size_t step = 0; step < symbols.made_for.size(); ++step) {
         if (symbols.made_for[step].starts_with("helper step")) names.helpers |= std::uint64_t{1} << step;
     }
     names.order = [symbols](const sequencer::MotorOrder& order) { return named_order_text(order, &symbols); };
-    return names;
-}
-
-verify::Names verify_names(const Compilation& program) {
-    verify::Names names = verify_names(program.symbols);
-    names.timer_is_limit = program.timer_is_limit;
     return names;
 }
 

@@ -7,7 +7,6 @@
 namespace nplc::seqc {
 
 verify::Names verify_names(const Symbols& symbols);
-verify::Names verify_names(const Compilation& program);
 /// For a table without symbols: steps and signals by number, registers by the manual's names.
 verify::Names verify_names();
 

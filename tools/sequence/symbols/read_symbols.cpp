@@ -139,6 +139,8 @@ void read_steps(const Node& node, SymbolFile& file) {
         different.add(written, name);
         if (step.has("copy_of"))
             file.symbols.copy_of[number] = static_cast<std::uint8_t>(step["copy_of"].whole(0, 62));
+        if (step.has("timer_is_limit") && step["timer_is_limit"].flag())
+            file.symbols.timer_is_limit |= std::uint64_t{1} << number;
         if (step.has("made_for")) file.symbols.made_for[number] = step["made_for"].text();
         file.step_lines[number] = static_cast<std::uint32_t>(step["line"].whole(0, kMostLines));
         file.step_outputs[number] = static_cast<std::uint8_t>(step["outputs"].whole(0, 15));

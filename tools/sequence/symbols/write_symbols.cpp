@@ -75,6 +75,7 @@ Json steps_of(const Compilation& compilation, const Places& places, const Source
         const std::string& why = compilation.symbols.made_for[step.number];
         if (!why.empty()) entry["made_for"] = why;
         if (const auto of = compilation.symbols.copy_of[step.number]) entry["copy_of"] = *of;
+        if (((compilation.symbols.timer_is_limit >> step.number) & 1U) != 0) entry["timer_is_limit"] = true;
         list.push_back(std::move(entry));
     }
     return list;

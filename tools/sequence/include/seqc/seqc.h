@@ -62,6 +62,8 @@ struct Symbols {
         made_for;  ///< why the compiler generated the step; empty: it is in the program
     /// The original of a copied step; a step's name includes its copies.
     std::array<std::optional<std::uint8_t>, 63> copy_of;
+    /// A bit for each step whose timer only limits it (WITHIN) or makes it blink.
+    std::uint64_t timer_is_limit = 0;
     std::vector<StepGroup> groups;
     std::vector<NamedTime> times;
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
@@ -129,8 +131,6 @@ struct Compilation {
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
     std::vector<Allowance> allowances;
-    /// A bit for each step whose timer only limits it (WITHIN) or makes it blink.
-    std::uint64_t timer_is_limit = 0;
     Written written;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
