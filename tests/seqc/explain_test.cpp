@@ -8,6 +8,8 @@
 #include "diagnostics/explanations.h"
 #include "diagnostics/reference.h"
 #include "language/reserved_words.h"
+#include "registers/details.h"
+#include "report/word_page.h"
 #include "symbols/commands.h"
 
 namespace nplc::seqc {
@@ -48,11 +50,17 @@ TEST_F(Explain, AnUnknownCodeIsOneLineWithTheNearest) {
     EXPECT_EQ(read("out"), "");
     EXPECT_EQ(read("err"),
               "seqc: there is no code 'e015'; near it are E014, E013 and E012 (seqc explain lists all)\n");
-    EXPECT_EQ(run("explain nonsense"), 2);
-    EXPECT_EQ(read("err"), "seqc: there is no code 'nonsense' (seqc explain lists all)\n");
+    const std::string rest = " (seqc explain lists the codes, LANGUAGE.md the words)\n";
+    const std::string none = " is no code, word, command, register, mode or bit";
     EXPECT_EQ(run("explain withni"), 2);
-    EXPECT_EQ(read("err"),
-              "seqc: there is no code 'withni'; did you mean 'WITHIN'? (seqc explain lists all)\n");
+    EXPECT_EQ(read("err"), "seqc: 'withni'" + none + "; did you mean 'WITHIN'?" + rest);
+    EXPECT_EQ(run("explain VHOME"), 2);
+    EXPECT_EQ(read("err"), "seqc: 'VHOME'" + none + "; did you mean 'HOME' or 'V_HOME'?" + rest);
+    EXPECT_EQ(run("explain nonsense"), 2);
+    EXPECT_TRUE(read("err").starts_with("seqc: 'nonsense'" + none)) << read("err");
+    EXPECT_EQ(std::ranges::count(read("err"), '\n'), 1);
+    EXPECT_EQ(run("explain qqqqqqqqqqqqqqqqqqqqqqqqqqqqqqqq"), 2);
+    EXPECT_EQ(read("err"), "seqc: 'qqqqqqqqqqqqqqqqqqqqqqqqqqqqqqqq'" + none + rest);
     EXPECT_EQ(run("explain follows"), 2);
     EXPECT_NE(read("err").find("a word of scenarios, which host-sim/scenario/README.md explains"),
               std::string::npos);
@@ -65,12 +73,72 @@ TEST_F(Explain, ModesAndBitsOfTheRegisters) {
     EXPECT_NE(read("out").find("MODE_REG"), std::string::npos);
 }
 
+TEST_F(Explain, WhatAWordMeansComesFirst) {
+    ASSERT_EQ(run("explain within"), 0);
+    EXPECT_TRUE(read("out").starts_with("WITHIN\n\nLANGUAGE.md, 15. Words:\n    a time limit: "))
+        << read("out");
+    ASSERT_EQ(run("explain RANGE"), 0);
+    EXPECT_NE(read("out").find("Words:\n    `RANGE 60 .. 2000 rpm`: the lowest and the highest value"),
+              std::string::npos)
+        << read("out");
+}
+
+/// 001 §3.2.40 and §3.2.41; a MAC140 has 4096 counts a turn and 3125/6 samples a second, so 1 rpm is
+/// 4096 / 60 / (3125/6) x 16 = 2.09715 steps. 004 gives register 40 of a MAC800.
+TEST_F(Explain, TheRegisterOfAName) {
+    ASSERT_EQ(run("explain v_home"), 0) << read("err");
+    const std::string page = read("out");
+    EXPECT_NE(page.find("Register 40: Homing velocity, its sign is the direction (MAC50, MAC95, MAC140"),
+              std::string::npos)
+        << page;
+    EXPECT_NE(page.find("1 rpm = 2.09715; "), std::string::npos) << page;
+    EXPECT_NE(page.find("- raw -32767 .. 32767; read and written"), std::string::npos) << page;
+    EXPECT_NE(page.find("- manual: 001 §3.2.40"), std::string::npos) << page;
+    EXPECT_NE(page.find("(MAC800)"), std::string::npos) << page;
+    ASSERT_EQ(run("explain START_MODE"), 0) << "as the manual of the MAC800 writes it";
+    ASSERT_EQ(run("explain HOME_MODE"), 0);
+    EXPECT_NE(read("out").find("`BY_COMMAND`"), std::string::npos);
+    EXPECT_NE(read("out").find("`HOME2_MODE`"), std::string::npos);
+    ASSERT_EQ(run("explain --json T_HOME"), 0);
+    const Json document = Json::parse(read("out"));
+    EXPECT_EQ(document["registers"][0]["number"], 41);
+    EXPECT_EQ(document["registers"][0]["name"], "T_HOME");
+}
+
+TEST_F(Explain, EveryRegisterModeAndBitThatAProgramMayName) {
+    for (const registers::Model model : {registers::Model::mac140, registers::Model::mac800}) {
+        for (const registers::Register& reg : registers::map_of(model)) {
+            const WordPage page = page_of_word(reg.name);
+            ASSERT_FALSE(page.registers.empty()) << reg.name;
+            const auto is_it = [&](const RegisterPage& one) {
+                return one.number == reg.number && one.name == reg.name && !one.title.empty() &&
+                       one.facts.find(reg.section) != std::string::npos;
+            };
+            EXPECT_TRUE(std::any_of(page.registers.begin(), page.registers.end(), is_it)) << reg.name;
+            for (const registers::Field& field : registers::fields_of(model, reg.number)) {
+                EXPECT_FALSE(page_of_word(field.name).values.empty()) << field.name;
+                for (const registers::NamedValue& value : field.values)
+                    EXPECT_FALSE(page_of_word(value.name).values.empty()) << value.name;
+            }
+        }
+    }
+}
+
 TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {
-    for (std::string_view word : reserved_words()) EXPECT_FALSE(passages_about(word).empty()) << word;
+    std::vector<std::string_view> words(reserved_words().begin(), reserved_words().end());
+    for (std::string_view word : {"BOOL", "Q", "AFTER", "BY", "FROM", "OFF", "SET", "RESET", "R_TRIG",
+                                  "F_TRIG", "BLINKING", "CALL", "RETURN", "moving", "IN0", "OUT0"})
+        words.push_back(word);
+    for (std::string_view word : words) {
+        const std::vector<Paragraph> passages = passages_about(word);
+        ASSERT_FALSE(passages.empty()) << word;
+        EXPECT_TRUE(passages.front().text.starts_with("| `" + std::string(word) + "` | ")) << word;
+        EXPECT_EQ(passages.front().section, "15. Words") << word;
+    }
     for (std::string_view word : command_names()) EXPECT_FALSE(passages_about(word).empty()) << word;
     ASSERT_EQ(run("explain timer"), 0);
     const std::string page = read("out");
-    EXPECT_TRUE(page.starts_with("TIMER\n\nLANGUAGE.md, ")) << page;
+    EXPECT_TRUE(page.starts_with("TIMER\n\nLANGUAGE.md, 15. Words:\n    the one timer: ")) << page;
     EXPECT_NE(page.find("the timer is set, 1 ms to 65.535 s"), std::string::npos) << page;
     ASSERT_EQ(run("explain MOVING"), 0);
     EXPECT_NE(read("out").find("holds from a scan that sends an order that moves"), std::string::npos)

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <memory>
@@ -13,10 +12,8 @@
 #include "cli/json.h"
 #include "cli/subcommands.h"
 #include "diagnostics/explanations.h"
-#include "diagnostics/reference.h"
 #include "language/names.h"
-#include "registers/details.h"
-#include "symbols/commands.h"
+#include "report/word_page.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -32,7 +29,7 @@ std::string indented(std::string_view text) {
     std::string result;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n') + 1);
-        result += fmt::format("    {}", line);
+        result += line == "\n" ? "\n" : fmt::format("    {}", line);
         text.remove_prefix(line.size());
     }
     return result;
@@ -59,24 +56,49 @@ Json page_object(const Explanation& info) {
     return object;
 }
 
-/// Explains a word of the language, from the reference.
-int explain_word(const std::string& word, const std::vector<Paragraph>& passages, bool json) {
-    if (json) {
-        Json document;
-        document["word"] = word;
-        document["passages"] = Json::array();
-        for (const Paragraph& passage : passages)
-            document["passages"].push_back({{"section", passage.section}, {"text", passage.text}});
-        return print_json(document, kOk);
-    }
-    std::string text = painted(stdout, "1", word) + "\n";
+std::string passages_text(const WordPage& page) {
+    std::string text;
     std::string_view section;
-    for (const Paragraph& passage : passages) {
+    for (const Paragraph& passage : page.passages) {
         if (passage.section != section) text += fmt::format("\nLANGUAGE.md, {}:\n", passage.section);
         section = passage.section;
-        text += indented(fmt::format("{}\n", passage.text));
+        text += indented(fmt::format("{}\n", shown(passage)));
     }
-    return print_or_write(text, {});
+    return text;
+}
+
+std::string registers_text(const WordPage& page) {
+    std::string text;
+    for (const RegisterPage& reg : page.registers) {
+        const std::string own =
+            same_name(reg.name, page.word) ? "" : fmt::format(", {} in its manual", reg.name);
+        text += fmt::format("\nRegister {}{}: {} ({})\n", reg.number, own, reg.title, reg.motors) +
+                indented(reg.facts);
+    }
+    if (!page.values.empty()) text += "\nIn the motor's registers:\n";
+    for (const std::string& line : page.values) text += indented(line + "\n");
+    return text;
+}
+
+std::string word_text(const WordPage& page) {
+    const std::string head = painted(stdout, "1", page.word) + "\n";
+    return page.is_of_language ? head + passages_text(page) + registers_text(page)
+                               : head + registers_text(page) + passages_text(page);
+}
+
+Json word_object(const WordPage& page) {
+    Json document;
+    document["word"] = page.word;
+    for (const Paragraph& passage : page.passages)
+        document["passages"].push_back({{"section", passage.section}, {"text", passage.text}});
+    for (const RegisterPage& reg : page.registers)
+        document["registers"].push_back({{"motors", reg.motors},
+                                         {"number", reg.number},
+                                         {"name", reg.name},
+                                         {"title", reg.title},
+                                         {"facts", reg.facts}});
+    if (!page.values.empty()) document["values"] = page.values;
+    return document;
 }
 
 int number_of(std::string_view code) {
@@ -100,63 +122,15 @@ std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all)
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
-/// "; did you mean WITHIN?", or a reference for a word of scenarios.
-std::string nearest_word(std::string_view wanted) {
-    constexpr std::array<std::string_view, 21> kOfScenarios{
-        "at",    "every",   "when",   "once",  "follows", "appears", "disappears",
-        "pulse", "toggle",  "cancel", "motor", "expect",  "ordered", "rises",
-        "falls", "changes", "recipe", "seed",  "log",     "never",   "eventually"};
-    const auto is_wanted = [&](std::string_view word) { return same_name(word, wanted); };
-    if (std::any_of(kOfScenarios.begin(), kOfScenarios.end(), is_wanted))
-        return "; it is a word of scenarios, which host-sim/scenario/README.md explains";
-    const std::string guess = suggestion(wanted, reference_words());
-    return guess.empty() ? guess : "; " + guess;
-}
-
-/// A mode, a bit or a field of the motors' registers: a line for each register that has it.
-std::vector<std::string> values_named(std::string_view word) {
-    std::vector<std::string> lines;
-    const auto add = [&](std::string line) {
-        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
-    };
-    for (const registers::Model model : {registers::Model::mac140, registers::Model::mac800}) {
-        for (const registers::Register& reg : registers::map_of(model)) {
-            const std::string place = fmt::format("{} (register {})", reg.name, reg.number);
-            for (const registers::Field& field : registers::fields_of(model, reg.number)) {
-                if (same_name(field.name, word) && field.width == 1)
-                    add(fmt::format("bit {} of {}: {}", field.first, place, field.meaning));
-                else if (same_name(field.name, word))
-                    add(fmt::format("bits {} to {} of {}: {}", field.first, field.first + field.width - 1,
-                                    place, field.meaning));
-                for (const registers::NamedValue& value : field.values) {
-                    if (same_name(value.name, word))
-                        add(fmt::format("value {} of {} in {}: {}", value.value, field.name, place,
-                                        value.meaning));
-                }
-            }
-        }
-    }
-    return lines;
-}
-
-/// Explains a name of the register maps.
-int explain_values(const std::string& word, const std::vector<std::string>& lines, bool json) {
-    if (json) {
-        Json document;
-        document["word"] = word;
-        document["values"] = lines;
-        return print_json(document, kOk);
-    }
-    std::string text = fmt::format("{}\n\nIn the motor's registers:\n", painted(stdout, "1", word));
-    for (const std::string& line : lines) text += indented(line + "\n");
-    return print_or_write(text, {});
-}
-
 int unknown(const ExplainArguments& options, const std::vector<Explanation>& all) {
     const std::string codes = nearest_codes(options.code, all);
+    const std::string shown = options.code.substr(0, 40);
     const std::string problem =
-        fmt::format("there is no code '{}'{} (seqc explain lists all)", options.code.substr(0, 40),
-                    codes.empty() ? nearest_word(options.code) : codes);
+        codes.empty() ? fmt::format(
+                            "'{}' is no code, word, command, register, mode or bit{} (seqc explain lists "
+                            "the codes, LANGUAGE.md the words)",
+                            shown, nearest_words(options.code))
+                      : fmt::format("there is no code '{}'{} (seqc explain lists all)", shown, codes);
     if (!options.json) return file_problem(problem);
     Json document;
     document["error"] = problem;
@@ -176,31 +150,15 @@ int list(const std::vector<Explanation>& all, bool json) {
     return print_or_write(text, {});
 }
 
-/// CLEAR_P_IST for 03H or 63H, the manuals' notation; other words unchanged.
-std::string command_of(const std::string& word) {
-    unsigned byte = 0;
-    const char* const end = word.data() + word.size();
-    const auto read = std::from_chars(word.data(), end, byte, 16);
-    if (word.size() != 3 || read.ptr != end - 1 || word.back() != 'H' || byte > 0x7F) return word;
-    const auto number = static_cast<std::uint8_t>(byte);
-    const std::string text =
-        describe_command(byte < table::kCommandNumbers ? table::command_numbered(number) : number);
-    return text.substr(0, text.find('('));
-}
-
 int explain(const ExplainArguments& options) {
     const std::vector<Explanation> all = explanations();
     if (options.code.empty()) return list(all, options.json);
     const auto found = std::find_if(
         all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
     if (found == all.end()) {
-        constexpr std::string_view kMoving = "moving";  // the only lower-case word
-        const std::string word =
-            same_name(options.code, kMoving) ? std::string(kMoving) : command_of(upper(options.code));
-        const std::vector<Paragraph> passages = passages_about(word);
-        if (!passages.empty()) return explain_word(word, passages, options.json);
-        const std::vector<std::string> values = values_named(word);
-        return values.empty() ? unknown(options, all) : explain_values(word, values, options.json);
+        const WordPage word = page_of_word(options.code);
+        if (word.is_empty()) return unknown(options, all);
+        return options.json ? print_json(word_object(word), kOk) : print_or_write(word_text(word), {});
     }
     return options.json ? print_json(page_object(*found), kOk) : print_or_write(page(*found), {});
 }
@@ -213,8 +171,9 @@ void add_explain(arguments::App& app, int& exit_code) {
                                                   "Tell what an error, a warning or a finding of verify "
                                                   "means, with a wrong and a right program; or what a "
                                                   "word of the language does");
-    command.add_option("code", options->code,
-                       "Such as E012 or W004, or a word such as TIMER; without one all codes are listed");
+    command.add_option(
+        "code", options->code,
+        "Such as E012 or W004, or a word such as TIMER, HOME or V_HOME; without one all codes are listed");
     command.add_flag("--json", options->json, "Print it as JSON");
     command.callback([options, &exit_code] { exit_code = explain(*options); });
 }

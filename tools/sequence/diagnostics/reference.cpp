@@ -1,5 +1,7 @@
 #include "diagnostics/reference.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "diagnostics/explanation_texts.h"
@@ -8,10 +10,13 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kMost = 8;
+constexpr std::size_t kMeaning = 1'000;  ///< the weight of what the word means
 
 bool is_word_character(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
+
+constexpr std::string_view kWords = "Words";  ///< the section with a row for each
 
 /// Number of occurrences as a word; in code formatting each counts three times.
 std::size_t weight(std::string_view text, std::string_view word) {
@@ -62,8 +67,10 @@ std::vector<Paragraph> passages_about(std::string_view word) {
         if (block.starts_with("#")) section = block.substr(block.find_first_not_of("# "));
         const bool is_rule = block.starts_with("    ") && section.ends_with("Grammar");
         if (block.starts_with("#") || (block.starts_with("    ") && !is_rule)) continue;
-        if (const std::size_t here = weight(block, word))
-            found.push_back(Found{Paragraph{section, block}, is_rule ? std::size_t{1} : here + 1});
+        const bool is_of_words = section.ends_with(kWords);
+        const bool means = is_of_words && block.starts_with(fmt::format("| `{}` |", word));
+        const std::size_t here = means ? kMeaning : is_of_words ? 0 : weight(block, word);
+        if (here != 0) found.push_back(Found{Paragraph{section, block}, is_rule ? std::size_t{1} : here + 1});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Found& a, const Found& b) { return a.weight > b.weight; });
@@ -72,6 +79,16 @@ std::vector<Paragraph> passages_about(std::string_view word) {
         if (passages.size() < kMost) passages.push_back(one.passage);
     }
     return passages;
+}
+
+std::string shown(const Paragraph& passage) {
+    constexpr std::string_view kBar = " | ";
+    const std::size_t begin = passage.text.find(kBar);
+    const std::size_t end = passage.text.rfind(kBar);
+    if (!passage.section.ends_with(kWords) || begin == end) return std::string(passage.text);
+    const std::string sections(passage.text.substr(end + kBar.size(), passage.text.size() - end - 5));
+    return std::string(passage.text.substr(begin + kBar.size(), end - begin - kBar.size())) +
+           (sections.find(',') == sections.npos ? " (section " : " (sections ") + sections + ")";
 }
 
 std::vector<std::string_view> reference_words() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +12,10 @@ struct Paragraph {
     std::string_view text;
 };
 
-/// The reference's passages about a word, the most relevant first; empty if it does not occur.
+/// The text, without the marks of a table's row that tells what a word means.
+std::string shown(const Paragraph& passage);
+
+/// The reference's passages about a word, what it means first; empty if it does not occur.
 std::vector<Paragraph> passages_about(std::string_view word);
 
 /// Words in capitals that it has, each once.

@@ -296,7 +296,7 @@ std::string documentation_of(std::string_view word) {
     std::string text;
     for (const Paragraph& passage : passages_about(word)) {
         if (passage.section.ends_with("Grammar") || text.size() > 1'200) break;
-        text += fmt::format("{}\n\n", passage.text);
+        text += fmt::format("{}\n\n", shown(passage));
     }
     return text;
 }

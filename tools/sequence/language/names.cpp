@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "text/edit_distance.h"
 
@@ -34,6 +35,34 @@ bool is_identifier(std::string_view text) {
 
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
     return spelling::nearest(name, candidates);
+}
+
+std::vector<std::string_view> all_nearest(std::string_view name,
+                                          const std::vector<std::string_view>& candidates) {
+    const std::string_view best = nearest(name, candidates);
+    std::vector<std::string_view> all;
+    if (best.empty()) return all;
+    const std::size_t distance = spelling::edit_distance(name, best);
+    for (const std::string_view word : candidates) {
+        if (spelling::edit_distance(name, word) == distance) all.push_back(word);
+    }
+    return all;
+}
+
+std::vector<std::string_view> most_similar(std::string_view name,
+                                           const std::vector<std::string_view>& candidates,
+                                           std::size_t most) {
+    std::vector<std::pair<std::size_t, std::string_view>> near;
+    for (const std::string_view word : candidates) {
+        const std::size_t distance = spelling::edit_distance(name, word);
+        if (2 * distance <= std::max(name.size(), word.size())) near.emplace_back(distance, word);
+    }
+    std::stable_sort(near.begin(), near.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (near.size() > most) near.resize(most);
+    std::vector<std::string_view> result;
+    for (const auto& [distance, word] : near) result.push_back(word);
+    return result;
 }
 
 std::string_view numbered_timer(std::string_view name) {

@@ -13,6 +13,14 @@ std::string upper(std::string_view text);
 /// The candidate most similar to `name`; empty if none is similar enough.
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
+/// All candidates that are as near as nearest() is; none if that is none.
+std::vector<std::string_view> all_nearest(std::string_view name,
+                                          const std::vector<std::string_view>& candidates);
+
+/// Those most similar to `name`, the nearest first, `most` at the most: at least half of the letters agree.
+std::vector<std::string_view> most_similar(std::string_view name,
+                                           const std::vector<std::string_view>& candidates, std::size_t most);
+
 /// Letters, digits and _, not beginning with a digit. Keywords are identifiers too.
 bool is_identifier(std::string_view text);
 
