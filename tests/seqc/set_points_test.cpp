@@ -146,6 +146,21 @@ TEST(SetPoints, ARecordOfAnotherTableIsRefused) {
     }
 }
 
+/// A constant that is equal to a default: the bytes do not tell which is which.
+TEST(SetPoints, ThatCannotBeWrittenAgainAreNamedWithTheirRanges) {
+    const Compilation compilation =
+        good(machine("SET_POINT Dwell := 500 ms RANGE 100 ms .. 5 s STEP 100 ms;\n",
+                     "STEP S: TAKES SET_POINTS; IF IN0 THEN TIMER := Dwell; NEXT := W; END_IF END_STEP\n"
+                     "STEP W: IF TIMER.Q THEN TIMER := T#500ms; NEXT := V; END_IF END_STEP\n"
+                     "STEP V: IF TIMER.Q THEN NEXT := S; END_IF END_STEP\n"));
+    DecompileOptions options;
+    options.symbols = &compilation.symbols;
+    const Decompilation back = decompile(compilation.table, options);
+    EXPECT_EQ(back.lost_set_points, std::vector<std::string>{"Dwell"});
+    EXPECT_NE(back.text.find("//     SET_POINT Dwell := "), std::string::npos) << back.text;
+    EXPECT_EQ(good(back.text).table, compilation.table);
+}
+
 TEST(SetPoints, ComeBackFromTheTableWithItsSymbols) {
     const Compilation compilation = good(kSaw);
     DecompileOptions options;

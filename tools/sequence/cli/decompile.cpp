@@ -8,6 +8,7 @@
 #include "cli/input.h"
 #include "cli/subcommands.h"
 #include "host/paths.h"
+#include "host/printable.h"
 #include "symbols/motors.h"
 
 namespace nplc::seqc::cli {
@@ -35,6 +36,11 @@ int decompile(const DecompileArguments& options) {
         return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
     if (input.symbols) wanted.symbols = &*input.symbols;
     const Decompilation result = seqc::decompile(input.table, wanted);
+    if (!result.lost_set_points.empty())
+        host::complain(
+            fmt::format("seqc: {}: the program has no set-points: the defaults of {} stand in it as "
+                        "constants",
+                        input.file, fmt::join(result.lost_set_points, ", ")));
     return result.error.empty() ? print_or_write(result.text, options.output) : file_problem(result.error);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "registers/mac.h"
 #include "seqc/seqc.h"
@@ -27,6 +28,7 @@ struct Decompilation {
     std::size_t term_steps = 0;        ///< TERMs alone
     std::size_t symbolic_terms = 0;
     std::size_t byte_terms = 0;
+    std::vector<std::string> lost_set_points;  ///< of `symbols`, whose defaults are constants in the text
 };
 
 /// Converts a raw table to a readable program: IF, OUT, ENTRY and ON ERROR where they reproduce the bytes,

@@ -48,7 +48,12 @@ class Decompiler {
             keeps_set_points_ = false;
             drive_ = choose_drive();
         }
-        return run_once();
+        Decompilation whole = run_once();
+        if (has_set_points()) {
+            for (const set_points::SetPoint& point : options_.symbols->set_points.values)
+                whole.lost_set_points.push_back(point.name);
+        }
+        return whole;
     }
 
   private:
@@ -222,6 +227,17 @@ class Decompiler {
         add(layout_.outside, 0);
     }
 
+    /// The declarations as a comment, for the reader to put in.
+    std::string lost_set_points(const Naming& naming) const {
+        const WriterContext context{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
+        std::string text =
+            "// Its set-points are not in this program, since values of the table cannot be told from their "
+            "defaults:\n// the defaults stand as constants. The set-points were:\n";
+        for (const set_points::SetPoint& point : options_.symbols->set_points.values)
+            text += fmt::format("//     {}\n", declaration_of(point, context));
+        return text;
+    }
+
     std::string head(const Naming& naming) const {
         const Decompilation& r = result_;
         std::string text = fmt::format("// Decompiled from {}: {} terms and the end of the table.\n",
@@ -241,10 +257,7 @@ class Decompiler {
         if (!why_no_drive_.empty())
             text += fmt::format("// It is written for a {}, because {}.\n", registers::name_of(motor_),
                                 printable(why_no_drive_));
-        if (has_set_points() && !keeps_set_points_)
-            text +=
-                "// Its set-points cannot be written with these branches: their defaults stand as "
-                "constants.\n";
+        if (has_set_points() && !keeps_set_points_) text += lost_set_points(naming);
         if (r.symbolic_terms + r.byte_terms > 0)
             text +=
                 "// A TERM is one term of the table: all that hold act in their order, and the last "

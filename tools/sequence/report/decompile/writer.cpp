@@ -145,21 +145,8 @@ class Writer {
     void write_set_points() {
         if (context_.naming.set_points.empty()) return;
         line(0, "");
-        for (const set_points::SetPoint& point : context_.naming.set_points) {
-            const registers::Register* reg =
-                point.at_power_up ? registers::find(context_.motor, point.reg) : nullptr;
-            std::string text = fmt::format("SET_POINT {}", point.name);
-            if (reg != nullptr) text += " AT " + register_address(*reg, context_);
-            const std::string unit = point.unit.empty() ? "" : " " + point.unit;
-            // The grid of the STEP begins at the lower end as written.
-            const std::string low = point.grid_from  ? fmt::format("{}{}", *point.grid_from, unit)
-                                    : point.step > 0 ? set_points::text_of(point, point.lowest)
-                                                     : set_points::short_text_of(point, point.lowest);
-            text += fmt::format(" := {} RANGE {} .. {}", set_points::short_text_of(point, point.initial), low,
-                                set_points::short_text_of(point, point.highest));
-            if (point.step > 0) text += fmt::format(" STEP {}{}", point.step, unit);
-            line(0, text + ";");
-        }
+        for (const set_points::SetPoint& point : context_.naming.set_points)
+            line(0, declaration_of(point, context_));
         end_passage(Kind::values);
     }
 
@@ -274,6 +261,21 @@ class Writer {
 };
 
 }  // namespace
+
+std::string declaration_of(const set_points::SetPoint& point, const WriterContext& context) {
+    const registers::Register* reg = point.at_power_up ? registers::find(context.motor, point.reg) : nullptr;
+    std::string text = fmt::format("SET_POINT {}", point.name);
+    if (reg != nullptr) text += " AT " + register_address(*reg, context);
+    const std::string unit = point.unit.empty() ? "" : " " + point.unit;
+    // The grid of the STEP begins at the lower end as written.
+    const std::string low = point.grid_from  ? fmt::format("{}{}", *point.grid_from, unit)
+                            : point.step > 0 ? set_points::text_of(point, point.lowest)
+                                             : set_points::short_text_of(point, point.lowest);
+    text += fmt::format(" := {} RANGE {} .. {}", set_points::short_text_of(point, point.initial), low,
+                        set_points::short_text_of(point, point.highest));
+    if (point.step > 0) text += fmt::format(" STEP {}{}", point.step, unit);
+    return text + ";";
+}
 
 WrittenProgram write_program(const Layout& layout, const Draft& draft, const WriterContext& context,
                              const std::string& head) {

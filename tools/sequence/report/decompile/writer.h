@@ -23,6 +23,9 @@ struct WrittenProgram {
     std::vector<Passage> passages;
 };
 
+/// "SET_POINT Speed AT V1 := 600 rpm RANGE 60 rpm .. 2000 rpm;"
+std::string declaration_of(const set_points::SetPoint& point, const WriterContext& context);
+
 /// Writes the program of a draft, with `head` (comment lines) first.
 WrittenProgram write_program(const Layout& layout, const Draft& draft, const WriterContext& context,
                              const std::string& head);
