@@ -31,15 +31,18 @@ void take_program(fmu::FmuOptions& options, const FmuCommand& command) {
     check_output(command, symbols_of(command.program, command.symbols), "symbol file");
     for (const std::string& told : {program.nameless, program.remark})
         if (!told.empty()) host::complain(fmt::format("{}", told));
-    if (command.motor && *command.motor != program.names.motor && !program.names.steps.empty()) {
-        host::complain(fmt::format("{}: was compiled for {} and runs on {}; its register values may not fit",
-                                   program.file, registers::name_of(program.names.motor),
-                                   registers::name_of(*command.motor)));
-    }
+    const std::string_view own =
+        program.drive != nullptr ? program.drive->program_name : registers::name_of(program.names.motor);
     if (program.drive != nullptr && !command.motor) {
-        host::complain(fmt::format("{}: a {} stands in for the {} drive, of which there are no FMUs",
-                                   program.file, registers::name_of(program.names.motor),
-                                   program.drive->family->name()));
+        throw InputError(fmt::format(
+            "{}: is for {}, a {} drive, of which there are no FMUs; with --motor {} a "
+            "JVL motor stands in for it",
+            program.file, own, program.drive->family->name(), registers::name_of(program.names.motor)));
+    }
+    const bool another = program.drive != nullptr || (command.motor && *command.motor != program.names.motor);
+    if (another && !program.names.steps.empty()) {
+        host::complain(fmt::format("{}: was compiled for {} and runs on {}; its register values may not fit",
+                                   program.file, own, registers::name_of(*command.motor)));
     }
     options.setup.motor = command.motor.value_or(program.names.motor);
     options.setup.table = program.content();

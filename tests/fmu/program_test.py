@@ -218,8 +218,10 @@ class Files(Case):
         with zipfile.ZipFile(self.written()) as archive:
             self.assertIn("modelDescription.xml", archive.namelist())
 
-    def test_a_motor_stands_in_for_a_midi_drive(self):
-        self.written("--with-gateway", os.path.join(EXAMPLES, "midi_pick_and_place.seq"), says="a MAC140 stands in for the MIDI drive")
+    def test_a_motor_stands_in_for_a_midi_drive_only_if_it_is_named(self):
+        program = ("--with-gateway", os.path.join(EXAMPLES, "midi_pick_and_place.seq"))
+        self.refused("-o", self.path("out.fmu"), *program, says="is for MAC34, a MIDI drive, of which there are no FMUs; with --motor MAC140")
+        self.written(*program, "--motor", "MAC140", says="was compiled for MAC34 and runs on MAC140; its register values may not fit")
 
 
 class Mistakes(Case):
