@@ -66,13 +66,16 @@ std::optional<std::uint16_t> report_no_time(Span span, Report& report, TimeFor u
     return std::uint16_t{1};
 }
 
-/// Of a number without a unit, which is most likely meant in milliseconds.
+/// Of a number without a unit, which is most likely meant in milliseconds or, if it is small, in seconds.
 std::string in_milliseconds(const ast::Value& value) {
     const bool is_plain = value.kind == ast::Value::Kind::literal && value.unit.text.empty() &&
                           !value.is_raw && value.number >= 1 && value.number <= kLongest &&
                           std::floor(value.number) == value.number;
     if (!is_plain) return "write it as T#500ms";
-    return fmt::format("write T#{}ms if these are milliseconds", value.number);
+    const std::string seconds = value.number <= kLongest / 1000.0
+                                    ? fmt::format(", or T#{}s if they are seconds", value.number)
+                                    : std::string();
+    return fmt::format("write T#{}ms if these are milliseconds{}", value.number, seconds);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "compiler/actions.h"
 #include "compiler/on_conditions.h"
@@ -74,6 +75,7 @@ class Checker {
                 plan.steps.push_back(step(*scope_.steps()[i], scope_.number_of(i)));
             }
         }
+        refuse_silent_steps();
         warn_idle_conditions();
         for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
         check_raw_terms(plan, symbols_.drive, report_);
@@ -259,20 +261,35 @@ class Checker {
         if (fault_) {
             plan.rules.push_back(fault_rule({}));
         } else if (!program_.on_error) {
-            refuse_silent_step(written.name);
+            silent_.push_back(&written);
         }
     }
 
-    /// ON ERROR EXCEPT .. is handled as any other ON condition: one that names ERROR applies to steps with
-    /// OWN ERROR.
-    void refuse_silent_step(const ast::Name& step) {
+    /// Once for all steps. ON ERROR EXCEPT .. is handled as any other ON condition: one that names ERROR
+    /// applies to steps with OWN ERROR.
+    void refuse_silent_steps() {
+        if (silent_.empty()) return;
         const auto on = std::find_if(program_.on_conditions.begin(), program_.on_conditions.end(),
                                      [](const auto& written) { return names_error(written.condition); });
         const bool has_on = on != program_.on_conditions.end();
+        const ast::Step& first = **std::min_element(
+            silent_.begin(), silent_.end(),
+            [](const ast::Step* a, const ast::Step* b) { return a->name.span.offset < b->name.span.offset; });
+        std::set<std::uint32_t> places;
+        for (const ast::Step* step : silent_) places.insert(step->name.span.offset);
+        const std::size_t others = places.size() - 1;
+        const std::string who = fmt::format("'{}'{}", first.origin ? first.origin->step : first.name.text,
+                                            others == 0   ? std::string()
+                                            : others == 1 ? std::string(" and another step")
+                                                          : fmt::format(" and {} other steps", others));
+        const std::string_view where = others == 0 ? "the step" : "each";
         Diagnostic& d = report_.add(
-            "E080", step.span, fmt::format("'{}' does not say what happens on ERROR", step.text),
-            has_on ? "write OWN ERROR; in the step, or ON ERROR NEXT := Fault; without IN, EXCEPT or more"
-                   : "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+            "E080", first.name.span,
+            fmt::format("{} {} not say what happens on ERROR", who, others == 0 ? "does" : "do"),
+            has_on
+                ? fmt::format("write OWN ERROR; in {}, or ON ERROR NEXT := Fault; without IN, EXCEPT or more",
+                              where)
+                : fmt::format("write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in {}", where));
         if (has_on) d.notes.push_back({on->span, "this applies only to steps with OWN ERROR"});
     }
 
@@ -568,6 +585,7 @@ class Checker {
     }
 
     const ast::Program& program_;
+    std::vector<const ast::Step*> silent_;  ///< without a word on ERROR
     Scope& scope_;
     Report& report_;
     const Symbols& symbols_;

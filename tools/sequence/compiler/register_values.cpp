@@ -202,6 +202,11 @@ const Register* RegisterValues::numbered(const ast::Value& number) {
     return nullptr;
 }
 
+bool RegisterValues::is_set_point(std::string_view name) const {
+    return std::ranges::any_of(names_.set_points(),
+                               [&](std::string_view point) { return same_name(point, name); });
+}
+
 void RegisterValues::report_no_register(const ast::Name& name) {
     const std::string message = fmt::format("'{}' is no register of {}", name.text, motor_.name());
     for (registers::Model other : {registers::Model::mac140, registers::Model::mac800}) {
@@ -228,6 +233,9 @@ void RegisterValues::report_no_register(const ast::Name& name) {
     if (mode_named(name.text))
         help = fmt::format("{0} is a command: select a register that holds the value, as in POSITION(P1)",
                            upper(name.text));
+    if (is_set_point(name.text))
+        help = fmt::format(
+            "it is a set-point without a register: only SET_POINT {} AT P3 := .. can be selected", name.text);
     if (help.empty())
         help =
             "declare it under VAR_MOTOR, or use the manual's name or REG(number); an output is declared "
@@ -264,9 +272,9 @@ std::optional<std::uint32_t> RegisterValues::written_bits(const ast::Value& writ
     auto per_unit = motor_.per_unit(reg, unit);
     if (!per_unit && motor_.scale_is_missing() && !is_known_unit(unit)) return std::nullopt;
     if (!per_unit) {
-        Diagnostic& d =
-            report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,
-                        fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
+        Diagnostic& d = report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                                    fmt::format("{} cannot be given in '{}'", shown_name, unit),
+                                    unit_help(reg, number, unit));
         note_value(d, value, shown_name);
         return std::nullopt;
     }
@@ -330,12 +338,11 @@ void RegisterValues::report_no_value(const ast::Name& name, const Register* reg)
             for (const registers::NamedValue& one : field.values) names.push_back(one.name);
         }
     }
-    if (std::ranges::any_of(names_.set_points(),
-                            [&](std::string_view point) { return same_name(point, text); })) {
+    if (is_set_point(text)) {
         report_.add(
             "E021", name.span, fmt::format("'{}' is a set-point, and a constant belongs here", text),
-            "a set-point is for := alone; a time limit of the operator's is ENTRY TIMER := Limit; and "
-            "TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
+            "a set-point stands alone behind :=, without arithmetic; a time limit of the operator's is ENTRY "
+            "TIMER := Limit; and TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
         return;
     }
     std::vector<std::string_view> meant = names;
@@ -375,8 +382,12 @@ void RegisterValues::note_value(Diagnostic& diagnostic, const ast::Value& value,
                                           motor_.length()->name)});
 }
 
-std::string RegisterValues::unit_help(const Register& reg, std::string_view unit) const {
+std::string RegisterValues::unit_help(const Register& reg, double number, std::string_view unit) const {
     const std::vector<std::string> fitting = fitting_units(reg, motor_.length());
+    std::vector<std::string> machine_first(fitting.rbegin(), fitting.rend());
+    if (const auto same = converted(number, unit, machine_first))
+        return fmt::format("write {:.9g} {} (use {})", same->number, same->unit,
+                           units_for(reg, motor_.length()));
     const std::string near = suggestion(unit, {fitting.begin(), fitting.end()});
     std::string units = fmt::format("use {}", units_for(reg, motor_.length()));
     if (unit == "ms" && reg.unit != registers::Unit::samples)

@@ -47,10 +47,11 @@ class RegisterValues {
 
   private:
     void declare_value_of(const ast::Variable& variable, const registers::Register& reg, std::uint32_t bits);
+    bool is_set_point(std::string_view name) const;
     void report_no_register(const ast::Name& name);
     void report_no_value(const ast::Name& name, const registers::Register* reg);
     void note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const;
-    std::string unit_help(const registers::Register& reg, std::string_view unit) const;
+    std::string unit_help(const registers::Register& reg, double number, std::string_view unit) const;
     void warn_without_unit(const ast::Value& value, const registers::Register& reg,
                            std::string_view shown_name, double raw);
     bool note_rounding(const ast::Value& value, const registers::Register& reg, std::string_view shown_name,

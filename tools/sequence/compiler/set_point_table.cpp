@@ -264,8 +264,15 @@ bool SetPointTable::decide_preset(DeclaredSetPoint& declared) {
         if (value.unit.text.empty() && !value.is_time && is_whole(value.number) &&
             value.number <= kLongestPreset)
             return static_cast<std::int32_t>(value.number);
-        report_.add("E063", value.span, "the counter holds whole numbers 0..65535",
-                    "for more, count in tens or hundreds");
+        const bool has_unit = value.is_time || !value.unit.text.empty();
+        report_.add(
+            "E063", value.span,
+            has_unit ? fmt::format("'{}' is used for the counter, and {}", written.name.text,
+                                   value.is_time ? std::string("a count is no time")
+                                                 : fmt::format("a count has no unit: '{}'", value.unit.text))
+                     : "the counter holds whole numbers 0..65535",
+            has_unit ? "write the number alone, or use the set-point for the timer"
+                     : "for more, count in tens or hundreds");
         return std::nullopt;
     };
     const auto initial = preset(written.value);

@@ -17,7 +17,11 @@ constexpr std::uint8_t kNone = sequencer::kLastStep;
 }  // namespace
 
 void StepNames::declare(const ast::Program& program, Symbols& symbols) {
-    for (const ast::Sequence& sequence : program.sequences) sequences_.push_back(sequence.name.text);
+    for (const ast::Sequence& sequence : program.sequences) {
+        sequences_.push_back(sequence.name.text);
+        for (const ast::Step& inner : sequence.steps)
+            inner_steps_.emplace_back(inner.name.text, sequence.name.text);
+    }
     for (const ast::Group& group : program.groups) groups_.push_back(group.name.text);
     steps_missing_ = program.steps_missing;
     for (const ast::Step& step : program.steps) {
@@ -55,7 +59,9 @@ std::optional<std::uint8_t> StepNames::number_of(const ast::Name& name,
     }
     std::string help = suggestion(name.text, names);
     const bool is_sequence = std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end();
-    if (help.empty() || is_sequence || is_group(name.text)) help = help_for(name.text);
+    const bool is_inner = std::any_of(inner_steps_.begin(), inner_steps_.end(),
+                                      [&](const auto& inner) { return same_name(inner.first, name.text); });
+    if (help.empty() || is_sequence || is_inner || is_group(name.text)) help = help_for(name.text);
     report_.add("E021", name.span,
                 fmt::format("there is no {} '{}'", groups.empty() ? "step" : "step or group", name.text),
                 help);
@@ -120,6 +126,11 @@ std::string StepNames::help_for(std::string_view name) const {
         if (is_it || upper(name).starts_with(upper(sequence) + "_"))
             return fmt::format("{}: write CALL {}(..); NEXT := Step;",
                                is_it ? "it is a SEQUENCE" : "the steps of a SEQUENCE are entered through it",
+                               sequence);
+    }
+    for (const auto& [step, sequence] : inner_steps_) {
+        if (same_name(step, name))
+            return fmt::format("it is a step of SEQUENCE {0}, entered by CALL {0}(..); NEXT := Step;",
                                sequence);
     }
     if (is_group(name)) return "it is a GROUP of several steps: name the one that is meant";

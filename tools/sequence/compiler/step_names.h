@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "compiler/model.h"
@@ -45,6 +46,7 @@ class StepNames {
     std::vector<std::uint8_t> numbers_;
     bool steps_missing_ = false;
     std::vector<std::string_view> sequences_;
+    std::vector<std::pair<std::string_view, std::string_view>> inner_steps_;  ///< and the SEQUENCE of each
     std::vector<std::string_view> groups_;
 };
 

@@ -116,7 +116,8 @@ void StepParser::parse_body(ast::Step& step, std::string_view end_word) {
             parse_takes(in_, step);
         } else if (in_.take("ENTRY")) {
             ast::Statement statement;
-            if (!refuse_entry_with_condition() && statements_.parse(statement))
+            if (!refuse_entry_with_condition() && !refuse_entry_of_outputs(step) &&
+                statements_.parse(statement))
                 step.entry.push_back(std::move(statement));
         } else if (in_.at("TERM")) {
             if (!terms_.parse(step.terms)) in_.recover();
@@ -145,6 +146,16 @@ bool StepParser::refuse_entry_with_condition() {
         "let the branch that leads to the step decide, and name another step where it does not hold");
     ast::Choice choice;
     choices_.parse(choice);
+    return true;
+}
+
+/// ENTRY OUT Lamp;
+bool StepParser::refuse_entry_of_outputs(ast::Step& step) {
+    if (!in_.at("OUT")) return false;
+    in_.report().add(
+        "E064", in_.token().span, "ENTRY cannot hold OUT",
+        "write OUT without ENTRY: the output is on from the scan that enters the step until it is left");
+    parse_out(step);
     return true;
 }
 

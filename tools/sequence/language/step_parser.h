@@ -36,6 +36,7 @@ class StepParser {
     void parse_head(ast::Program& program, ast::Step& step);
     void parse_body(ast::Step& step, std::string_view end_word);
     bool refuse_entry_with_condition();
+    bool refuse_entry_of_outputs(ast::Step& step);
     void parse_out(ast::Step& step);
     bool parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step);
     void parse_allowance(ast::Step& step);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "language/names.h"
 #include "registers/scale.h"
 
@@ -24,6 +27,49 @@ std::string without_blanks(std::string_view text) {
 bool is_length_or_rate(std::string_view unit, std::string_view length) {
     if (!same_name(unit.substr(0, length.size()), length)) return false;
     return unit.size() == length.size() || unit[length.size()] == '/';
+}
+
+struct BaseUnit {
+    std::string_view name;
+    char dimension;  ///< length, angle, turn, time
+    double factor;
+};
+
+constexpr auto kBaseUnits = std::to_array<BaseUnit>({
+    {"mm", 'l', 1},
+    {"cm", 'l', 10},
+    {"m", 'l', 1000},
+    {"um", 'l', 0.001},
+    {"inch", 'l', 25.4},
+    {"in", 'l', 25.4},
+    {"deg", 'a', 1},
+    {"rad", 'a', 180 / 3.14159265358979323846},
+    {"rev", 't', 1},
+    {"U", 't', 1},
+});
+
+/// A unit as a multiple of one of its dimension: "l", "l/s" or "l/s2".
+struct InBase {
+    std::string dimension;
+    double factor = 1;
+};
+
+std::optional<InBase> in_base(std::string_view unit) {
+    if (same_name(unit, "rpm")) return InBase{"t/s", 1.0 / 60};
+    if (same_name(unit, "rpm/s")) return InBase{"t/s2", 1.0 / 60};
+    const std::size_t bar = unit.find('/');
+    const std::string_view length = unit.substr(0, bar);
+    const auto* const base = std::find_if(kBaseUnits.begin(), kBaseUnits.end(), [&](const BaseUnit& known) {
+        return same_name(known.name, length);
+    });
+    if (base == kBaseUnits.end()) return std::nullopt;
+    const std::string dimension(1, base->dimension);
+    if (bar == unit.npos) return InBase{dimension, base->factor};
+    const std::string_view time = unit.substr(bar + 1);
+    if (same_name(time, "s")) return InBase{dimension + "/s", base->factor};
+    if (same_name(time, "min")) return InBase{dimension + "/s", base->factor / 60};
+    if (same_name(time, "s2") || same_name(time, "s/s")) return InBase{dimension + "/s2", base->factor};
+    return std::nullopt;
 }
 
 }  // namespace
@@ -93,6 +139,18 @@ std::string units_for(const Register& reg, const std::optional<LengthUnit>& leng
     const std::string last = std::move(units.back());
     units.pop_back();
     return fmt::format("{} or {}", fmt::join(units, ", "), last);
+}
+
+std::optional<Converted> converted(double number, std::string_view unit,
+                                   const std::vector<std::string>& fitting) {
+    const auto written = in_base(without_blanks(unit));
+    if (!written) return std::nullopt;
+    for (const std::string& own : fitting) {
+        const auto base = in_base(own);
+        if (!base || base->dimension != written->dimension || same_name(own, unit)) continue;
+        return Converted{number * written->factor / base->factor, own};
+    }
+    return std::nullopt;
 }
 
 }  // namespace nplc::seqc

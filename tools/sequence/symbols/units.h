@@ -31,4 +31,15 @@ bool is_known_unit(std::string_view unit);
 /// The units that fit a register, for messages.
 std::string units_for(const registers::Register& reg, const std::optional<LengthUnit>& length);
 
+/// A value in a unit that a register takes.
+struct Converted {
+    double number = 0;
+    std::string unit;
+};
+
+/// The value in one of `fitting`, if its unit is none of them but a multiple of one: cm where mm is taken,
+/// m/min where mm/s is.
+std::optional<Converted> converted(double number, std::string_view unit,
+                                   const std::vector<std::string>& fitting);
+
 }  // namespace nplc::seqc
