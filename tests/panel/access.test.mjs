@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { closeBrowser, inStep, openPage, operate, painted, root, simulator } from "./machine.mjs";
+import { closeBrowser, examples, file, inStep, openPage, operate, painted, root, simulator } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -42,6 +42,8 @@ for (const { name, ...options } of screens) {
     assert.deepEqual(await seriousFindings(page), []);
     await operate(page, machine.token);
     assert.ok((await width()) <= 0, "operating");
+    const gauges = await page.$$eval(".fact", (all) => all.map((fact) => fact.children[2]?.getBoundingClientRect().height).filter(Boolean));
+    assert.deepEqual(gauges, [4, 4, 4]); // as style.css has them: a frame would look like a full one
     await page.waitForFunction(() => document.querySelectorAll(".notice").length === 0);
     assert.deepEqual(await seriousFindings(page), []);
     await inStep(page, 2);
@@ -102,3 +104,39 @@ for (const { name, ...options } of screens) {
     await machine.stop();
   });
 }
+
+const kNames = ["Guard_closed", "Part_present", "Clamp_closed", "Acknowledged", "Pallet_at_it", "Start_button"];
+const kChain = `PROGRAM Chain
+MOTOR MAC140;
+VAR_INPUT ${kNames.map((name, i) => `${name} AT IN${i} : BOOL;`).join(" ")} END_VAR
+ON ERROR NEXT := S57;
+POWER_UP NEXT := S0; END_POWER_UP
+${Array.from({ length: 58 }, (_, i) => `STEP S${i}: ${i === 57 ? "OWN ERROR; " : ""}IF Guard_closed THEN NEXT := S${(i + 1) % 57}; END_IF END_STEP`).join("\n")}
+END_PROGRAM
+`;
+
+test("names of twelve letters are not torn on a laptop's screen while one operates", async () => {
+  const machine = await simulator(file("seq", kChain));
+  const page = await openPage(machine.url, { viewport: { width: 1280, height: 800 } });
+  await painted(page);
+  await operate(page, machine.token);
+  const lines = await page.$$eval(".signal-name", (all) => all.map((name) => [name.textContent, Math.round(name.getBoundingClientRect().height / parseFloat(getComputedStyle(name).lineHeight))]));
+  assert.deepEqual(lines.slice(0, 6), kNames.map((name) => [name, 1]));
+  await page.context().close();
+  await machine.stop();
+});
+
+test("what stands in the boxes of the drawing is large enough to read", async () => {
+  const sizes = [[1280, 800, 10], [360, 780, 10], [3840, 2160, 12]]; // 4k: the page's own text is larger too
+  for (const program of [join(examples, "board_stacker.seq"), file("seq", kChain)]) {
+    const machine = await simulator(program);
+    for (const [width, height, least] of sizes) {
+      const page = await openPage(machine.url, { viewport: { width, height } });
+      await painted(page);
+      const size = await page.$eval("#drawing", (drawing) => drawing.getScreenCTM().a * parseFloat(getComputedStyle(drawing.querySelector(".name")).fontSize));
+      assert.ok(size >= least, `${width} px, ${program}: ${size}`);
+      await page.context().close();
+    }
+    await machine.stop();
+  }
+});

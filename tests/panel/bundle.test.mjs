@@ -90,6 +90,26 @@ test("the last path and the breakpoints are those of boxes", async () => {
   assert.equal(axis.boxNames([1, 4, 2]), "Wait, Work");
 });
 
+test("a sequence that is held while its outputs are safe is not called stopped", async () => {
+  const { Axis } = await part("state");
+  const axis = new Axis({ name: "x", motor: "MAC140", counts_per_rev: 4096, samples_per_second: 520.83, error_bits: [], modes: {} });
+  const words = (run, safe) => {
+    axis.r = { STATUS: run | (safe ? 1 << 6 : 0), SAFE_REASON: 3 };
+    return axis.stateInWords();
+  };
+  assert.equal(words(4, true), "held, outputs safe: link down");
+  assert.equal(words(4, false), "held");
+  assert.equal(words(0, true), "stopped: link down");
+  assert.equal(words(2, true), "outputs safe: link down");
+});
+
+test("POWER_UP stands above all, also where only a fault leads back to it", async () => {
+  const { layOut } = await part("layout");
+  // Fault (9) is entered by ERROR alone, whose ways are not laid out.
+  const { boxes } = layOut([9, 10, 0, 1], [[9, 10], [10, 0], [0, 1], [1, 0]]);
+  assert.equal(boxes.get(0).y, Math.min(...[...boxes.values()].map((box) => box.y)));
+});
+
 test("the bundle that is checked in is made from its sources", () => {
   for (const name of ["src", "build.mjs", "tsconfig.json"]) cpSync(join(source, "page", name), join(folder, name), { recursive: true });
   execFileSync(join(folder, "node_modules", ".bin", "tsc"), ["--noEmit"], { cwd: folder, stdio: "inherit" });

@@ -100,16 +100,17 @@ test("a stop that the motor does not confirm says that it may be moving", () =>
     assert.doesNotMatch(await textOf(page, "#why"), /“Run” starts/);
     await isReadable(page, "#do-give-up");
     for (const id of ["#do-run", "#do-step", "#do-scan"]) assert.equal(await page.getAttribute(id, "aria-disabled"), "true", id);
-    await hasText(page, "#notices", "the machine may still be running");
+    await hasText(page, "#notices", "the motor may be moving; mend its supply or line");
+    assert.doesNotMatch(await textOf(page, "#notices"), /not confirmed.*not confirmed/i);
     for (let i = 0; i < 6; ++i) { // other notices do not push it out
       await page.fill("#sim-action", `motor lod ${i}`);
       await page.click("#sim-form button");
       await hasText(page, "#notices", `motor lod ${i}:`);
     }
-    await hasText(page, "#notices", "the machine may still be running");
+    await hasText(page, "#notices", "the motor may be moving; mend its supply or line");
     await page.click("#sim-cut");
     await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
-    assert.doesNotMatch(await textOf(page, "#notices"), /may still be running/, "it goes with its reason");
+    assert.doesNotMatch(await textOf(page, "#notices"), /may be moving/, "it goes with its reason");
   }));
 
 test("a stop while the simulated time is paused says why nothing comes of it", () =>
@@ -220,6 +221,53 @@ test("an upload is compared and asked about, then stored, made active, and its n
     await state(page, "running");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#do-download")]);
     assert.deepEqual(readFileSync(await download.path()), readFileSync(table));
+  }));
+
+test("a force that the safe state overrules is shown as it was asked for", () =>
+  withPages(1, async (machine, page) => {
+    await operate(page, machine.token);
+    await page.click("#do-stop");
+    await state(page, "stopped: stop command");
+    await page.selectOption('select[aria-label="force Lamp"]', "1");
+    await hasText(page, "#fact-forces", "end in");
+    await page.locator("#search").focus();
+    await hasText(page, ".signals li.forced .signal-note", "forced 1, now 0");
+    assert.equal(await page.inputValue('select[aria-label="force Lamp"]'), "1");
+  }));
+
+test("an upload is compared with what is active when it is confirmed, not with what was", () =>
+  withPages(1, async (machine, page) => {
+    const build = (name) => {
+      execFileSync(join(programs, "seqc"), ["build", join(examples, `${name}.seq`), "-o", path(`${name}.bin`)]);
+      return [path(`${name}.bin`), path(`${name}.sym`)];
+    };
+    const files = build("cut_to_length");
+    const [table, symbols] = build("fill_and_count");
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    await page.setInputFiles("#upload-files", files);
+    await hasText(page, "#upload-text", "differs from what is active (PickAndPlace");
+    const client = new Client(machine.url);
+    await client.opened;
+    await client.ask({ do: "login", secret: machine.token });
+    await client.ask({ do: "seat", take_over: true });
+    const answer = await client.ask({ do: "upload", table: readFileSync(table).toString("base64"), symbols: JSON.parse(readFileSync(symbols, "utf8")), activate: true });
+    assert.equal(answer.result, "done", answer.text);
+    await hasText(page, "#upload-text", "differs from what is active (FillAndCount");
+    client.close();
+  }));
+
+test("a table that is only stored: the page says how it becomes active", () =>
+  withPages(1, async (machine, page) => {
+    execFileSync(join(programs, "seqc"), ["build", join(examples, "cut_to_length.seq"), "-o", path("later.bin")]);
+    await operate(page, machine.token);
+    for (const [button, text] of [["#upload-store", "“Stop, store and make active” of the same file"], ["#upload-activate", "stored and active"]]) {
+      await page.click("#do-upload");
+      await page.setInputFiles("#upload-files", [path("later.bin"), path("later.sym")]);
+      await page.click(button);
+      await hasText(page, "#notices", text);
+    }
+    await hasText(page, "#program", "Cut_to_Length");
   }));
 
 test("files that are no table, an empty one, two, foreign names and another motor's program are told before anything is sent", () =>
@@ -344,9 +392,11 @@ test("the simulated machine: inputs, line, shaft, time, and a scenario that does
     await hasText(page, "#fact-error", "ERROR");
     await page.click("#sim-block");
     await page.click("#sim-block");
+    await page.click("#sim-form button"); // nothing is asked for, and nothing complained of
     await page.fill("#sim-action", "motor lod 3");
     await page.click("#sim-form button");
     await hasText(page, "#notices", "motor lod 3:");
+    assert.doesNotMatch(await textOf(page, "#notices"), /"sim" takes/);
     await page.click("#sim-pause");
     await hasText(page, "#sim-pause", "Go on");
     const stands = async () => {

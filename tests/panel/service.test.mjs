@@ -1,6 +1,6 @@
 // The page as `nanoplc` serves it: two axes, virtual motors on their lines, secrets in files.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readFileSync, symlinkSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { Client, closeBrowser, file, hasText, inStep, openPage, operate, painted, textOf, withService } from "./machine.mjs";
@@ -52,6 +52,27 @@ test("two axes, each with its program; a token of the start in the journal", () 
     client.close();
     await page.context().close();
   }));
+
+test("a stop that was not confirmed goes from the page once its axis is at rest, also while it shows another", async () => {
+  const motors = [];
+  const tap = (to, from, children) => void (symlinkSync(from, to), motors.push(children.at(-1)));
+  await withService("", async ({ url }) => {
+    const page = await openPage(url);
+    await painted(page);
+    await page.selectOption("#axis", "y");
+    await hasText(page, "#program", "FillAndCount");
+    motors[1].kill("SIGSTOP");
+    await hasText(page, "#fact-link", "down");
+    await page.click("#do-stop");
+    await hasText(page, "#notices", "y: stop: not confirmed");
+    await page.selectOption("#axis", "x");
+    await hasText(page, "#program", "PickAndPlace");
+    motors[1].kill("SIGCONT");
+    await page.waitForFunction(() => !document.getElementById("notices").textContent.includes("y: stop"));
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }, { tap });
+});
 
 test("with a password nothing is shown without it, and a stop is still heard", async () => {
   const token = file("token", "operate-this-machine\n");

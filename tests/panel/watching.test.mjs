@@ -289,6 +289,15 @@ test("the motor's values are shown with their age once its line is cut, and leav
     assert.match(readFileSync(await download.path(), "utf8").trimEnd().split("\n").at(-1), /,,,$/);
     await page.click("#sim-cut");
     await page.waitForFunction(() => !document.getElementById("trend-now").textContent.includes("old"));
+    // The motor answers, whether the sequence has acknowledged the loss or not.
+    await hasText(page, "#fact-link", "not acknowledged");
+    const end = Date.now() + 30_000;
+    for (;;) {
+      const [table] = await Promise.all([page.waitForEvent("download"), page.click("#trend-tools >> text=CSV")]);
+      const rows = readFileSync(await table.path(), "utf8").trimEnd().split("\n");
+      if (rows.slice(rows.findLastIndex((row) => row.endsWith(",,,")) + 1).some((row) => /^[\d.]+,Fault,-?\d/.test(row))) break;
+      assert.ok(Date.now() < end, "the trend goes on with the motor's values");
+    }
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }));
@@ -334,6 +343,36 @@ test("a program that is halted: data older than a second are shown as old", () =
     await hasText(page, "#link-bar", "what you see is old");
     machine.child.kill("SIGCONT");
     await painted(page);
+    await page.context().close();
+  }));
+
+test("who operates does so after a short halt of the program, and is not told that he took over from himself", () =>
+  withMachine(join(examples, "pick_and_place.seq"), {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await operate(page, machine.token);
+    machine.child.kill("SIGSTOP");
+    await page.waitForTimeout(2500); // the page asks once a second to keep the seat
+    machine.child.kill("SIGCONT");
+    await painted(page);
+    await page.click("#do-hold");
+    await hasText(page, "#notices", "The sequence is held");
+    assert.doesNotMatch(await textOf(page, "#notices"), /has taken over/);
+    assert.match(await textOf(page, "#mode-text"), /OPERATING/);
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
+test("a stop without an answer is told after a second, as the protocol asks of a client", () =>
+  withMachine(join(examples, "pick_and_place.seq"), {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await page.clock.install();
+    machine.child.kill("SIGSTOP");
+    await page.click("#do-stop");
+    await page.clock.runFor(1000);
+    assert.match(await textOf(page, "#notices"), /No answer to stop yet: the machine may still be running/);
+    machine.child.kill("SIGCONT");
     await page.context().close();
   }));
 

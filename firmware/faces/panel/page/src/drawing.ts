@@ -14,7 +14,10 @@ interface View {
 
 const kPathShown = 6;
 const kLeastWidth = 220;
-const kReadable = 0.5; // px of the screen for one of the drawing
+// px of the screen for one of the drawing, where the page's text is as large as kText.
+const kReadable = 0.7; // a drawing that would be smaller is shown in part
+const kPleasant: [number, number] = [0.8, 1]; // such a part, larger the less lies beside it
+const kText = 15;
 
 export class StepDrawing {
   selected: number | null = null; // a box; null: the active step
@@ -260,15 +263,24 @@ export class StepDrawing {
   private begin(): void {
     this.fit();
     this.shows = "readable";
-    const scale = this.root.clientWidth / this.view.width;
-    if (scale < kReadable) this.magnify(scale / 0.75);
+    const part = this.partFor();
+    if (part !== null) this.magnify(part);
     if (this.lastBox >= 0) this.reveal(this.lastBox);
+  }
+
+  /** By what to magnify what is too small to read; null: nothing is. */
+  private partFor(): number | null {
+    const text = parseFloat(getComputedStyle(document.documentElement).fontSize) / kText;
+    const scale = this.root.clientWidth / this.view.width;
+    if (scale >= kReadable * text) return null;
+    const whole = this.root.clientWidth / (this.drawing!.width * text);
+    return scale / (Math.min(Math.max(whole, kPleasant[0]), kPleasant[1]) * text);
   }
 
   /** Shows it and selects it, as large as can be read. */
   goTo(step: number): void {
-    const scale = this.root.clientWidth / this.view.width;
-    if (scale < kReadable) this.zoom(scale / 0.75);
+    const part = this.partFor();
+    if (part !== null) this.zoom(part);
     this.select(step);
   }
 

@@ -27,7 +27,7 @@ export interface Drawing {
 export const kBoxWidth = 150;
 export const kBoxHeight = 46;
 const kColumn = 34; // between boxes
-const kRow = 58; // between layers
+const kRow = 44; // between layers
 const kBendWidth = 16; // a long way's room in a layer
 
 interface Node {
@@ -209,6 +209,7 @@ export function layOut(ids: number[], pairs: Pair[]): Drawing {
   const out = new Map<number, number[]>(ids.map((id) => [id, []]));
   for (const [from, to] of real) out.get(from)!.push(to);
   const back = backWays(ids, out);
+  for (const [from, to] of real) if (to === 0) back.add(`${from}>${to}`); // POWER_UP stands above all
   const forward = real.map(([from, to]): Pair => (back.has(`${from}>${to}`) ? [to, from] : [from, to]));
   const layer = layersOf(ids, forward);
   const layers: Node[][] = Array.from({ length: Math.max(0, ...layer.values()) + 1 }, () => []);

@@ -139,6 +139,7 @@ function paintLink(age: number): void {
 }
 
 function paint(): void {
+  for (const one of axes.values()) operation.resolveDoubt(one);
   const axis = current;
   const age = axis ? performance.now() - axis.imageAt : Infinity;
   paintLink(age);

@@ -4,11 +4,13 @@ import type { Axis } from "./state";
 import type { Answer, Wire } from "./wire";
 
 const kTokenKey = "nanoplc-token";
-const kStopPatience = 1500; // ms: the program answers a stop within 1 s, with any outcome
+const kStopPatience = 1000; // ms, as PROTOCOL.md asks for
 // Of an answer: firmware/gateway/REGISTERS.md.
 const kNoTable = 6;
 const kNotRunning = 17;
+const kTooLate = 19;
 const kSeatTaken = 22;
+const kNotConfirmed = 43;
 const kMostNotices = 4; // that pass by themselves
 
 export class Operation {
@@ -114,7 +116,7 @@ export class Operation {
   lostSeat(): void {
     if (!this.operates) return;
     this.setOperates(false);
-    const holder = this.axis?.seat.holder;
+    const holder = this.axis?.seat.mine ? "" : this.axis?.seat.holder; // mine: its end is not known here yet
     this.notice(`${holder ? `${holder} has taken over` : "The operator's seat is no longer yours"}; you are watching.`, true);
   }
 
@@ -132,7 +134,7 @@ export class Operation {
     if (!this.operates || !this.axis || this.wire.state !== "open") return;
     const axis = this.axis.info.name;
     void this.wire.ask({ do: "seat", axis }).then((answer) => {
-      if (answer.result === "refused") this.lostSeat();
+      if (answer.result === "refused" && answer.code !== kTooLate) this.lostSeat(); // too late: asked again in a second
     });
     if (this.axis.forcedInputs || this.axis.forcedOutputs) void this.wire.ask({ do: "write", axis, register: "FORCE_LEFT", value: 1 });
   }
@@ -175,7 +177,7 @@ export class Operation {
       this.endDoubt(axis);
       this.notice(of + (name === "hold" ? "The sequence is held." : "Stopped; the outputs have their safe values."));
     } else if (answer.code === kNotRunning || answer.code === kNoTable) this.notice(`${of}${name}: ${answer.text}`, true);
-    else this.doubt(axis, name, `${of}${name}: ${answer.text}. Not confirmed: the machine may still be running.`);
+    else this.doubt(axis, name, `${of}${name}: ${answer.text}.${answer.code === kNotConfirmed ? "" : " Not confirmed: the machine may still be running."}`);
   }
 
   /** Stays until the axis is seen to stand still, or somebody dismisses it. */
@@ -189,7 +191,8 @@ export class Operation {
     this.doubts.delete(axis);
   }
 
-  private resolveDoubt(axis: Axis): void {
+  /** Of any axis, shown or not. */
+  resolveDoubt(axis: Axis): void {
     const doubt = this.doubts.get(axis.info.name);
     if (!doubt || this.wire.state !== "open" || axis.imageAt <= doubt.since || axis.stopUnconfirmed) return;
     if (axis.isStopped || (doubt.isHold && axis.isHeld)) this.endDoubt(axis.info.name);
@@ -235,7 +238,6 @@ export class Operation {
 
   /** Which buttons are of use now. */
   update(axis: Axis): void {
-    this.resolveDoubt(axis);
     const enable = (id: string, on: boolean): void => setAttribute(byId(id), "aria-disabled", String(!on));
     const may = this.operates;
     enable("do-run", may && axis.hasTable && !axis.stopUnconfirmed && (axis.isStopped || axis.isHeld));

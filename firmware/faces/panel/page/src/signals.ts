@@ -17,6 +17,8 @@ interface Row {
   press: HTMLButtonElement | null;
 }
 
+const forceOf = (forced: number, levels: number, bit: number): number | null => (forced >> bit & 1 ? levels >> bit & 1 : null);
+
 export class Signals {
   private inputs: Row[] = [];
   private outputs: Row[] = [];
@@ -42,23 +44,24 @@ export class Signals {
   }
 
   update(axis: Axis): void {
-    this.inputs.forEach((row, bit) => this.show(row, axis.inputName(bit), `IN${bit}`, axis.inputs >> bit & 1, axis.forcedInputs >> bit & 1,
+    this.inputs.forEach((row, bit) => this.show(row, axis.inputName(bit), `IN${bit}`, axis.inputs >> bit & 1, forceOf(axis.forcedInputs, axis.forcedInputLevels, bit),
       (axis.terminals >> bit & 1) !== (axis.inputs >> bit & 1) ? `terminal ${axis.terminals >> bit & 1}` : ""));
-    this.outputs.forEach((row, bit) => this.show(row, axis.outputName(bit), `OUT${bit}`, axis.outputs >> bit & 1, axis.forcedOutputs >> bit & 1,
+    this.outputs.forEach((row, bit) => this.show(row, axis.outputName(bit), `OUT${bit}`, axis.outputs >> bit & 1, forceOf(axis.forcedOutputs, axis.forcedOutputLevels, bit),
       (axis.written >> bit & 1) !== (axis.outputs >> bit & 1) ? `sequence wrote ${axis.written >> bit & 1}` : ""));
   }
 
-  private show(row: Row, name: string, plain: string, level: number, forced: number, note: string): void {
+  /** `forced`: the level that was asked for; what is shown may be another, as an output's safe value. */
+  private show(row: Row, name: string, plain: string, level: number, forced: number | null, note: string): void {
     setText(row.name, name);
     setAttribute(row.name, "title", plain);
     setClass(row.lamp, "on", level === 1);
     setAttribute(row.lamp, "aria-label", `${name} is ${level}`);
     setText(row.lamp, String(level));
-    setClass(row.element, "forced", forced === 1);
-    setText(row.note, [forced ? `forced ${level}` : "", note].filter(Boolean).join(", "));
+    setClass(row.element, "forced", forced !== null);
+    setText(row.note, [forced === null ? "" : `forced ${forced}${forced === level ? "" : `, now ${level}`}`, note].filter(Boolean).join(", "));
     setAttribute(row.choice, "aria-label", `force ${name}`);
     if (row.press) setAttribute(row.press, "aria-label", `switch ${name}`);
-    const value = forced ? String(level) : "";
+    const value = forced === null ? "" : String(forced);
     if (document.activeElement !== row.choice && row.choice.value !== value) row.choice.value = value;
   }
 }
@@ -74,9 +77,9 @@ export class Facts {
     for (const [id, label, bar] of [["timer", "Timer", 1], ["counter", "Counter", 1], ["inpos", "IN_POS", 0], ["error", "ERROR", 0],
       ["link", "Link to the motor", 0], ["forces", "Forces", 1]] as const) {
       const value = h("span", { class: "fact-value" });
-      const filled = bar ? h("span", { class: "bar-fill" }) : null;
+      const filled = bar ? h("span", { class: "gauge-fill" }) : null;
       const element = h("div", { class: "fact", id: `fact-${id}` }, h("span", { class: "fact-label" }, label), value,
-        filled && h("span", { class: "bar" }, filled));
+        filled && h("span", { class: "gauge" }, filled));
       this.cells.set(id, { element, value, bar: filled });
       root.append(element);
     }

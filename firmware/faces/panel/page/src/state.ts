@@ -153,6 +153,8 @@ export class Axis {
   get stopUnconfirmed(): boolean { return this.status(19); }
   get hasTable(): boolean { return this.status(11); }
   get forcedInputs(): number { return ((this.r.FORCE_IN ?? 0) >> 8) & 0x3f; }
+  get forcedInputLevels(): number { return (this.r.FORCE_IN ?? 0) & 0x3f; }
+  get forcedOutputLevels(): number { return (this.r.FORCE_OUT ?? 0) & 0xf; }
   get forcedOutputs(): number { return ((this.r.FORCE_OUT ?? 0) >> 8) & 0xf; }
   /** In any step of the box: while it is drawn as one, they are set together. */
   breaksAt(box: number): boolean {
@@ -243,8 +245,9 @@ export class Axis {
 
   stateInWords(): string {
     if (this.stopUnconfirmed) return "stop not confirmed: the motor may be moving";
-    if (this.status(6) && this.runState !== 2) return `stopped: ${kReasons[this.r.SAFE_REASON]?.short ?? "safe"}`;
-    if (this.status(6)) return `outputs safe: ${kReasons[this.r.SAFE_REASON]?.short ?? ""}`;
+    const reason = kReasons[this.r.SAFE_REASON]?.short ?? "safe";
+    if (this.status(6) && this.isHeld) return `held, outputs safe: ${reason}`;
+    if (this.status(6)) return `${this.isRunning ? "outputs safe" : "stopped"}: ${reason}`;
     if (this.status(10)) return "held at a breakpoint";
     return kRunStates[this.runState] ?? "unknown";
   }

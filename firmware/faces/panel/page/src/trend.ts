@@ -9,7 +9,7 @@ const kKept = 6000; // samples: ten minutes at ten a second
 const kWindows = [10, 60, 300];
 const kOld = 1000; // ms: a value that was read before is shown with its age
 const kPause = 2; // seconds without a sample are a gap in the lines
-const kLinkUp = 3;
+const kAnswers = 2; // LINK from here on: the motor answers, acknowledged by the sequence or not
 const kNarrow = 560; // px
 // An axis shows at least so much: what a shaft at rest trembles is not drawn as high as the plot.
 const kLeastTurns = 0.05; // revolutions
@@ -131,7 +131,7 @@ export class Trend {
     // sample.
     const value = (name: string): number | null | undefined => {
       const found = axis.m.get(name);
-      if (!found?.good || (axis.r.LINK ?? 0) !== kLinkUp) return null;
+      if (!found?.good || (axis.r.LINK ?? 0) < kAnswers) return null;
       if (found.at === series.taken.get(name)) return undefined;
       series.taken.set(name, found.at);
       return found.raw;

@@ -97,8 +97,10 @@ export class Upload {
     byId("upload-activate").addEventListener("click", () => void this.send(true));
   }
 
+  /** Of a table that comes while the user is asked, the differences are from that one. */
   show(axis: Axis): void {
     this.axis = axis;
+    if (this.dialog.open && this.chosen) this.tell(this.chosen);
   }
 
   private open(): void {
@@ -126,18 +128,24 @@ export class Upload {
       this.chosen = null;
       return setText(this.text, (error as Error).message);
     }
+    this.tell(this.chosen);
+    this.enable(true);
+  }
+
+  /** What it changes in the active table. */
+  private tell(chosen: Chosen): void {
     const now = this.axis!;
     const next = new Axis(now.info);
-    const terms = decodeTable(this.chosen.bytes);
+    const terms = decodeTable(chosen.bytes);
     const steps = stepsOf(terms);
-    const symbols = symbolsOf(this.chosen.symbols);
+    const symbols = symbolsOf(chosen.symbols);
     next.program = {
-      file: this.chosen.name, crc: crc32(this.chosen.bytes), bytes: this.chosen.bytes, proof: "", since: -1,
-      symbols, hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps, boxes: new Boxes(steps.keys(), symbols.steps),
+      file: chosen.name, crc: crc32(chosen.bytes), bytes: chosen.bytes, proof: "", since: -1,
+      symbols, hasSymbols: chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps, boxes: new Boxes(steps.keys(), symbols.steps),
     };
     const differences = now.program?.crc === next.program.crc ? [] : compare(now, next);
     const { program, motor } = next.program.symbols;
-    const name = program ?? this.chosen.name;
+    const name = program ?? chosen.name;
     const isForAnother = motor !== undefined && !now.info.motor.startsWith(motor) && !(kSmall.test(motor) && kSmall.test(now.info.motor));
     const warning = isForAnother ? `It was compiled for a ${motor}, and this axis has a ${now.info.motor}: its moves may be others. ` : "";
     setClass(this.text, "warning", isForAnother);
@@ -145,7 +153,6 @@ export class Upload {
       ? `${name}, ${terms.length} terms, CRC-32 ${hex(next.program.crc)}, differs from what is active (${now.programName()}, ${hex(now.program?.crc ?? 0)}) in ${differences.length} terms. Making it active stops the sequence.`
       : `${name} is the table that is active already (CRC-32 ${hex(next.program.crc)}).`));
     this.list.replaceChildren(...differences.map((d) => h("li", { class: d.kind === "+" ? "added" : "gone" }, `${d.kind} ${d.text}`)));
-    this.enable(true);
   }
 
   private async send(activate: boolean): Promise<void> {
@@ -165,7 +172,7 @@ export class Upload {
       return setText(this.text, `Not done. ${answer.text}`);
     }
     this.dialog.close();
-    this.operation.notice(activate ? "The table is stored and active. Run it when the machine is clear." : "The table is stored. It becomes active at the next reset, or by activate.");
+    this.operation.notice(activate ? "The table is stored and active. Run it when the machine is clear." : "The table is stored. It becomes active when the gateway starts again, or by “Stop, store and make active” of the same file.");
   }
 
   private download(): void {
