@@ -386,6 +386,11 @@ test("the simulated machine: inputs, line, shaft, time, and a scenario that does
     await inStep(page, 2);
     await page.click('.press[aria-label="switch Start"]');
     await inStep(page, 1);
+    await page.click("#do-stop");
+    await state(page, "stopped: stop command");
+    await page.click("#do-run");
+    await inStep(page, 1);
+    await state(page, "running");
     await page.click("#sim-cut");
     await hasText(page, "#fact-link", "down");
     await page.click("#sim-cut");
@@ -412,9 +417,11 @@ test("the simulated machine: inputs, line, shaft, time, and a scenario that does
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
     const recorded = readFileSync(await download.path(), "utf8");
     assert.match(recorded, /^at [\d.]+ ms toggle Start$/m);
+    assert.match(recorded, /^at [\d.]+ ms gateway stop\nat [\d.]+ ms gateway run$/m);
     assert.match(recorded, /^at [\d.]+ ms motor stop above -?\d+ counts, motor stop below -?\d+ counts$/m);
     const again = execFileSync(join(programs, "nanoplc-sim"), ["run", pick, "--scenario", file("scn", recorded)], { encoding: "utf8" });
     assert.match(again, /Idle -> Travel/);
+    assert.match(again, /stop command/);
     assert.match(again, /link/);
   }));
 
