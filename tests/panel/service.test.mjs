@@ -49,6 +49,13 @@ test("two axes, each with its program; a token of the start in the journal", () 
     await page.selectOption("#axis", "x");
     await hasText(page, "#program", "FillAndCount");
     assert.equal((await client.ask({ do: "upload", axis: "x", table: readFileSync(join(folder, "x.bin")).toString("base64"), symbols: { table: { crc32: "00000000" } } })).text, "the names are those of another table");
+    // What came without names is not called by the configuration's file.
+    const crc = JSON.parse(readFileSync(join(folder, "y.sym"), "utf8")).table.crc32;
+    assert.equal((await client.ask({ do: "upload", axis: "y", table: readFileSync(join(folder, "x.bin")).toString("base64"), activate: true })).result, "done");
+    const newer = JSON.parse(readFileSync(join(folder, "x.sym"), "utf8")).table.crc32;
+    const program = await client.until((m) => m.t === "program" && m.axis === "y" && m.crc === parseInt(newer, 16));
+    assert.equal(program.file, "");
+    assert.ok(client.messages.some((m) => m.t === "program" && m.axis === "y" && m.crc === parseInt(crc, 16) && m.file === "y.bin"));
     client.close();
     await page.context().close();
   }));

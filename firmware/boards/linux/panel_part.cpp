@@ -11,6 +11,7 @@
 #include "faces/program_version.h"
 #include "panel/names.h"
 #include "seat/secret.h"
+#include "table_file.h"
 
 namespace nplc::boards {
 namespace {
@@ -40,7 +41,8 @@ StoredNames::Found StoredNames::find(std::size_t axis, std::uint32_t crc) {
         std::string text = text_of(path);
         if (!text.empty() && panel::is_for_table(text, crc)) return {path, std::move(text)};
     }
-    return {config_.axes[axis].table.text, {}};
+    const std::string& table = config_.axes[axis].table.text;
+    return {crc_of_table(table) == crc ? table : std::string(), {}};
 }
 
 /// Atomic: the old file stays until the new one is complete.

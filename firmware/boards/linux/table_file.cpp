@@ -86,4 +86,12 @@ TableFile read_table(const std::string& path, const std::string& symbols) {
     return table;
 }
 
+std::optional<std::uint32_t> crc_of_table(const std::string& path) {
+    const TableFile file = read_table(path, "");
+    if (!file.error.empty()) return std::nullopt;
+    const auto loaded = sequencer::Table::load(file.bytes);
+    const std::size_t whole = (loaded.table.size() + 1) * sequencer::kTermBytes;
+    return base::crc32(std::span(file.bytes).first(whole));
+}
+
 }  // namespace nplc::boards

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,8 @@ struct TableFile {
 };
 /// `symbols`: its symbol file; empty: the one in the same folder, if it belongs to this table.
 TableFile read_table(const std::string& path, const std::string& symbols);
+
+/// Of the table alone, end term included, as TABLE_CRC; empty if the file holds none.
+std::optional<std::uint32_t> crc_of_table(const std::string& path);
 
 }  // namespace nplc::boards
