@@ -36,13 +36,14 @@ std::string StoredNames::kept_file(std::size_t axis) const {
 }
 
 StoredNames::Found StoredNames::find(std::size_t axis, std::uint32_t crc) {
+    const std::string& table = config_.axes[axis].table.text;
+    const std::string file = crc_of_table(table) == crc ? table : std::string();
     for (const std::string& path : {kept_file(axis), config_.axes[axis].symbols.text}) {
         if (path.empty()) continue;
         std::string text = text_of(path);
-        if (!text.empty() && panel::is_for_table(text, crc)) return {path, std::move(text)};
+        if (!text.empty() && panel::is_for_table(text, crc)) return {file, std::move(text)};
     }
-    const std::string& table = config_.axes[axis].table.text;
-    return {crc_of_table(table) == crc ? table : std::string(), {}};
+    return {file, {}};
 }
 
 /// Atomic: the old file stays until the new one is complete.
