@@ -32,7 +32,7 @@ void MotorBridge::begin(const mactalk::Request& request, base::Instant now) {
 }
 
 void MotorBridge::drop() {
-    motor_.drop_access();
+    if (asked_) motor_.drop_access();
     asked_ = false;
 }
 
@@ -74,22 +74,15 @@ base::Instant MotorBridge::next_poll(base::Instant now, base::Microseconds pause
 }
 
 MotorBridge::State MotorBridge::take(base::Instant now) {
-    switch (motor_.access_state()) {
-        case motor::AccessState::waiting:
-        case motor::AccessState::under_way:
-            return State::under_way;
-        case motor::AccessState::none:
-        case motor::AccessState::failed:
-            asked_ = false;
-            ended_ = now;
-            ++failures_;
-            // A failed write may have been executed: it is not repeated.
-            return is_read() && failures_ < kMostFailures ? State::under_way : State::failed;
-        case motor::AccessState::done:
-            break;
-    }
+    const motor::AccessState state = motor_.access_state();
+    if (motor::is_open(state)) return State::under_way;
     asked_ = false;
     ended_ = now;
+    if (state != motor::AccessState::done) {
+        ++failures_;
+        // A failed write may have been executed: it is not repeated.
+        return is_read() && failures_ < kMostFailures ? State::under_way : State::failed;
+    }
     if (!is_read()) return State::answered;
     base::store_u32(&data_[have_], motor_.access_value());
     have_ += kLongword;

@@ -44,6 +44,8 @@ struct BenchBoard final : ports::DigitalInputs,
             return false;
         accesses.push_back(wanted);
         access = access_answers;
+        if (access == motor::AccessState::done) ++motor_counters.accesses;
+        if (access == motor::AccessState::failed) ++motor_counters.access_fails;
         return true;
     }
     motor::AccessState access_state() const override { return access; }

@@ -25,9 +25,15 @@ constexpr std::array<Turn, 8> kUsual{kPosition, kVelocity, kPosition, kTorque,
 /// For a displayed trend: the same number of reads, with the torque as often as the position.
 constexpr std::array<Turn, 7> kTrend{kPosition, kVelocity, kTorque, kPosition, kVelocity, kTorque, kOther};
 
-/// The motor's one access is the port's or an activation's.
-bool is_taken(gateway::Controller& controller) {
-    return controller.user_port().awaits_motor() || controller.registers().asks_motor();
+/// While the user port reads the motor too: the least time between an access here and the next one, which
+/// takes some 10 ms at 19200 baud, so that the port keeps most of the line.
+constexpr base::Microseconds kTurn{50'000};
+constexpr base::Microseconds kBeside{200'000};  ///< since the port was last seen to wait for the motor
+
+/// The motor's one access may be begun: it is neither an activation's nor the port's. Between two accesses
+/// for one message of the port it is free, too.
+bool is_free(gateway::Controller& controller) {
+    return !controller.registers().asks_motor() && !controller.user_port().accesses_motor();
 }
 
 std::int32_t signed_value(const registers::Register& reg, std::uint32_t value) {
@@ -53,49 +59,63 @@ void MotorReader::forget() {
     to_survey_.clear();
     survey_ended_ = survey_failed_ = false;
     asked_ = false;
-    ended_ = {};
+    last_.ended = {};
     hurried_ = kHurried;
 }
 
 void MotorReader::drop(gateway::Controller& controller) {
-    if (asked_ && !is_taken(controller)) controller.motor().drop_access();
+    if (asked_ && !controller.registers().asks_motor() && ended_since(controller) == Ended{})
+        controller.motor().drop_access();
     asked_ = false;
     wanted_.reset();
     item_.reset();
     surveyed_ = nullptr;
 }
 
-base::Microseconds MotorReader::pause(const gateway::Controller& controller) const {
-    if (controller.sequence().run_state() == gateway::RunState::stopped) return {};
-    return base::Milliseconds(controller.registers().settings().get(store::Setting::read_pause));
+base::Microseconds MotorReader::pause(const gateway::Controller& controller, base::Instant now) const {
+    const bool runs = controller.sequence().run_state() != gateway::RunState::stopped;
+    const base::Milliseconds running(runs ? controller.registers().settings().get(store::Setting::read_pause)
+                                          : 0);
+    return now - last_.port_waited <= kBeside ? std::max<base::Microseconds>(running, kTurn) : running;
+}
+
+MotorReader::Ended MotorReader::ended_since(const gateway::Controller& controller) const {
+    const motor::Counters counters = controller.motor().counters();
+    return {.done = counters.accesses - before_.done, .failed = counters.access_fails - before_.failed};
 }
 
 MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Instant now) {
     if (!begun_) begun_ = now;
+    if (controller.user_port().awaits_motor()) last_.port_waited = now;
     if (!motor::link_is_usable(controller.motor().link()) || now - *begun_ > kLongest) {
         drop(controller);
         return State::failed;
     }
     if (asked_) return take(controller, now);
-    if (!is_taken(controller) && now - ended_ >= pause(controller))
+    if (is_free(controller) && now - last_.ended >= pause(controller, now)) {
+        const motor::Counters before = controller.motor().counters();
         asked_ = controller.motor().begin_access(*wanted_);
+        if (asked_) before_ = {.done = before.accesses, .failed = before.access_fails};
+    }
     return State::under_way;
 }
 
-/// A failed or dropped write may have been executed: it is not repeated.
+/// The next access may be the port's already, begun in the poll in which this one ended: the counters tell
+/// its end, and the value is kept until another one ends. A failed or dropped write may have been executed:
+/// it is not repeated.
 MotorReader::State MotorReader::take(gateway::Controller& controller, base::Instant now) {
-    const bool lost = is_taken(controller);
-    const motor::AccessState state = controller.motor().access_state();
-    if (!lost && motor::is_open(state)) return State::under_way;
+    const Ended ended = ended_since(controller);
+    const bool lost = controller.registers().asks_motor() || ended.done + ended.failed > 1;
+    const bool dropped = controller.motor().access_state() == motor::AccessState::none;
+    if (!lost && !dropped && ended == Ended{}) return State::under_way;
     asked_ = false;
-    ended_ = now;
-    if (lost || state != motor::AccessState::done) {
+    last_.ended = now;
+    if (lost || ended.done == 0) {
         if (!wanted_->is_write && (lost || ++failures_ < kMostFailures)) return State::under_way;
         wanted_.reset();
         return State::failed;
     }
     value_ = controller.motor().access_value();
-    controller.motor().drop_access();
     wanted_.reset();
     return State::done;
 }
@@ -104,7 +124,7 @@ base::Instant MotorReader::next(const gateway::Controller& controller, base::Ins
     if (!wanted_) return base::kNever;
     const base::Instant patience = begun_.value_or(now) + kLongest + base::Microseconds(1);
     if (asked_) return motor::is_open(controller.motor().access_state()) ? patience : now;
-    return std::min(patience, std::max(now + kBusy, ended_ + pause(controller)));
+    return std::min(patience, std::max(now + kBusy, last_.ended + pause(controller, now)));
 }
 
 /// The next one of the motor that is not read oftener.
@@ -186,9 +206,12 @@ void MotorReader::look_around(gateway::Controller& controller, AxisImage& image,
                               base::Instant wall, bool has_trend) {
     if (period_.count() == 0) return;
     if (!wanted_) {
-        if (wall >= due_) {
+        // By turns where both are due: reads may take longer than the period.
+        const bool is_surveys_turn = surveys() && std::exchange(read_item_, false);
+        if (wall >= due_ && !is_surveys_turn) {
             if (wall - due_ > kPause) hurried_ = kHurried;
             due_ = wall + period_;
+            read_item_ = true;
             choose_item(image, has_trend);
         } else if (surveys()) {
             choose_surveyed();

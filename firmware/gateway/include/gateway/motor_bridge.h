@@ -20,7 +20,9 @@ class MotorBridge {
 
     /// `request`: a read, block read or write. Drops the one before.
     void begin(const protocol::mactalk::Request& request, base::Instant now);
+    /// Others' accesses are left alone.
     void drop();
+    bool is_accessing() const { return asked_; }
 
     enum class State : std::uint8_t { under_way, answered, failed };
     /// `pause`: minimum time between two accesses. `answered` and `failed` are returned once.

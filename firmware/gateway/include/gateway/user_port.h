@@ -56,6 +56,8 @@ class UserPort {
     /// would carry a message to the motor now.
     bool awaits_own_write() const { return serving_ == Serving::own_write; }
     bool awaits_motor() const { return serving_ == Serving::motor; }
+    /// The motor's access is open for a message here, or its result has not been taken yet.
+    bool accesses_motor() const { return awaits_motor() && bridge_.is_accessing(); }
     bool motor_allows(const protocol::mactalk::Request& request) const;
     /// For a stop from another port, which takes precedence.
     void cancel_own_write();

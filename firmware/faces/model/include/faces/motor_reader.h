@@ -12,7 +12,8 @@
 namespace nplc::faces {
 
 /// Accesses one motor register at a time, between the sequence's orders: for a face's request, else the
-/// values of AxisImage in turns. Yields to the user port; an interrupted read is repeated.
+/// values of AxisImage in turns. Shares the motor with the user port, which has the larger part. A read that
+/// an activation interrupts is repeated.
 class MotorReader {
   public:
     explicit MotorReader(base::Microseconds period) : period_(period) {}
@@ -55,13 +56,27 @@ class MotorReader {
     /// Items beside position and velocity.
     static constexpr unsigned kHurried = kMotorItems - 2;
 
+    /// The driver's accesses that have ended.
+    struct Ended {
+        std::uint32_t done = 0;
+        std::uint32_t failed = 0;
+        bool operator==(const Ended&) const = default;
+    };
+
+    struct Last {
+        base::Instant ended{};        ///< end of the previous access
+        base::Instant port_waited{};  ///< the user port was seen to wait for the motor
+    };
+
     State take(gateway::Controller& controller, base::Instant now);
+    /// Since this one was begun, the first of which is this one.
+    Ended ended_since(const gateway::Controller& controller) const;
     MotorItem next_other(registers::Model model);
     void choose_item(const AxisImage& image, bool has_trend);
     void choose_surveyed();
     void note_surveyed(base::Instant wall);
     void note_item(AxisImage& image, base::Instant wall);
-    base::Microseconds pause(const gateway::Controller& controller) const;
+    base::Microseconds pause(const gateway::Controller& controller, base::Instant now) const;
 
     base::Microseconds period_;
     std::optional<motor::Access> wanted_;
@@ -69,7 +84,8 @@ class MotorReader {
     bool asked_ = false;
     std::uint8_t failures_ = 0;
     std::uint32_t value_ = 0;
-    base::Instant ended_{};
+    Ended before_{};  ///< when this access was begun
+    Last last_;
 
     std::optional<MotorItem> item_;                      ///< for wanted_
     std::vector<const registers::Register*> to_survey_;  ///< remaining registers, the next one last
@@ -78,6 +94,7 @@ class MotorReader {
     Survey survey_;
     bool survey_ended_ = false;
     bool survey_failed_ = false;
+    bool read_item_ = false;  ///< the read before was of an item
     unsigned turn_ = 0;
     unsigned other_ = static_cast<unsigned>(MotorItem::error_word);  ///< of the items read in turns
     unsigned hurried_ = kHurried;                                    ///< remaining reads of the first pass
