@@ -83,6 +83,18 @@ struct Plant {
         return {unsigned{bytes[2]} << 8 | bytes[3], unsigned{bytes[4]} << 8 | bytes[5]};
     }
 
+    unsigned input(Master& master, std::uint8_t address) {
+        const auto answer = ask(master, {kReadInputs, 0, address, 0, 1});
+        const auto bytes = answer ? answer->bytes() : std::span<const std::uint8_t>{};
+        return bytes.size() < 4 ? 0x1'0000U : unsigned{bytes[2]} << 8 | bytes[3];
+    }
+    /// As `nanoctl reset`: a start in the same process.
+    void reset() {
+        port.start({.autostart = false});
+        loop.restarted();
+        run(20ms);
+    }
+
     SetPointBench port;
     faces::AxisModel model{"x"};
     faces::AxisLoop loop{model, {}};
@@ -132,6 +144,41 @@ TEST_P(TwoMasters, AnothersCoilStartsNothing) {
     plant.coil(other, 0, false);
     plant.coil(plc, 0, true);
     EXPECT_FALSE(plant.runs());
+}
+
+TEST_P(TwoMasters, AfterAStartOfTheGatewayNothingIsCarriedOutBeforeAZero) {
+    EXPECT_TRUE(plant.write(plc, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 5}));
+    plant.coil(plc, 0, false);
+    EXPECT_TRUE(plant.runs());
+    plant.reset();
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 6}));
+    EXPECT_EQ(plant.ended(plc), (Words{6, kTooLate}));
+    plant.coil(plc, 0, true);
+    EXPECT_FALSE(plant.runs());
+    EXPECT_TRUE(plant.write(other, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 6}));
+    EXPECT_FALSE(plant.runs());
+    EXPECT_TRUE(plant.write(plc, 0, {0, 0}));
+    EXPECT_TRUE(plant.write(plc, 0, {kRun, 7}));
+    EXPECT_TRUE(plant.runs());
+}
+
+/// Their number is counted anew by the gateway.
+TEST_P(TwoMasters, NewEventsAreThoseSinceTheStartOfTheGateway) {
+    for (const unsigned number : {1U, 2U, 3U}) {
+        EXPECT_TRUE(plant.write(plc, 0, {0, 0}));
+        EXPECT_TRUE(plant.write(plc, 0, {kRun, number}));
+        plant.coil(plc, kStop, false);
+        plant.coil(plc, kStop, true);
+    }
+    const unsigned before = plant.input(plc, kNewEvents);
+    EXPECT_GE(before, 6U) << "started and stopped three times";
+    plant.coil(plc, kAcknowledge, true);
+    EXPECT_EQ(plant.input(plc, kNewEvents), 0U);
+    plant.reset();
+    EXPECT_LT(plant.input(plc, kNewEvents), before);
+    EXPECT_EQ(plant.input(plc, kNewEvents), *plant.port.read(gw::LOG_COUNT));
 }
 
 struct TwoAddresses : testing::Test {

@@ -99,6 +99,12 @@ Handshake& Unit::handshake(const std::string& address) {
     return *found;
 }
 
+void Unit::follow_start(const faces::AxisImage& image) {
+    if (image.number == 0 || std::exchange(restarts_, image.restarts) == image.restarts) return;
+    handshakes_.clear();
+    acknowledged = 0;
+}
+
 std::optional<Command> Unit::due(base::Instant now) {
     if (master == 0 || settings.on_silence == Silence::nothing || now - heard <= settings.silence)
         return std::nullopt;
@@ -157,6 +163,7 @@ std::optional<Answer> Session::serve(std::uint8_t number, std::span<const std::u
     const bool asks_why = request.space == Space::input_register && request.address < kWhyEnd &&
                           request.address + request.count > kWhy;
     const faces::AxisImage image = asks_why ? unit->model.image_with_why(now, &why) : unit->model.image(now);
+    unit->follow_start(image);
     if (asks_motor(request)) unit->model.want_motor(now);
     const Look look{.unit = *unit,
                     .index = static_cast<std::size_t>(place - units_.begin()),

@@ -67,6 +67,9 @@ class Unit {
     /// until the next call.
     Handshake& handshake(const std::string& address);
 
+    /// After a start of the gateway in the same process what was written before it counts no more.
+    void follow_start(const faces::AxisImage& image);
+
     std::uint32_t acknowledged = 0;  ///< of event_count
 
     std::uint64_t master = 0;   ///< the last operating session; 0: none
@@ -79,6 +82,7 @@ class Unit {
   private:
     std::vector<Handshake> handshakes_;
     std::uint64_t uses_ = 0;
+    std::uint64_t restarts_ = 0;  ///< seen
 };
 
 /// Time of a request, and the limit of its age.
