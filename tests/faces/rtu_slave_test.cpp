@@ -28,20 +28,26 @@ Bytes sealed(std::uint8_t unit, const Bytes& pdu) {
 struct RtuBench {
     RtuBench() {
         EXPECT_TRUE(port.upload_and_activate(kWaits));
+        EXPECT_TRUE(second_port.upload_and_activate(kWaits));
+        second_port.board.now = port.board.now;
         slave.join(bell, now());
         run(20ms);
         EXPECT_TRUE(port.gateway->run());
+        EXPECT_TRUE(second_port.gateway->run());
         run(20ms);
     }
 
     base::Instant now() const { return port.board.now; }
     bool runs() const { return port.gateway->run_state() != gw::RunState::stopped; }
+    bool second_runs() const { return second_port.gateway->run_state() != gw::RunState::stopped; }
     /// What the slave sends meanwhile.
     Bytes run(base::Microseconds time, bool axis_lives = true) {
         Bytes sent;
         for (const auto end = now() + time; now() < end;) {
             port.poll();
+            second_port.poll();
             if (axis_lives) loop.poll(*port.controller, now(), now());
+            if (axis_lives) second_loop.poll(*second_port.controller, now(), now());
             slave.take({}, now(), now());
             slave.poll(now());
             const auto bytes = slave.out(now());
@@ -65,9 +71,11 @@ struct RtuBench {
     gateway::PortBench port;
     faces::AxisModel model{"x"};
     faces::AxisLoop loop{model, {}};
-    faces::AxisModel* axes[1] = {&model};
+    gateway::PortBench second_port;
+    faces::AxisModel second_model{"y"};
+    faces::AxisLoop second_loop{second_model, {}};
     faces::Bell bell{[] {}};
-    RtuSlave slave{{.unit = kUnit}, {axes, axes + 1}};
+    RtuSlave slave{{.unit = kUnit}, {&model, &second_model}};
 };
 
 TEST(RtuSlave, AnswersAfterTheSilence) {
@@ -115,7 +123,8 @@ TEST(RtuSlave, ALateAnswerStaysOutOfAnothersTurn) {
 /// One that is ready, and waits for the silence.
 TEST(RtuSlave, AnAnswerThatIsReadyStaysOutOfAnothersTurn) {
     RtuBench line;
-    static_cast<void>(line.model.image(line.now()));
+    for (faces::AxisModel* axis : {&line.model, &line.second_model})
+        static_cast<void>(axis->image(line.now()));
     line.run(20ms);
     line.hear(sealed(kUnit, kAskStatus));
     line.slave.poll(line.now());
@@ -155,6 +164,48 @@ TEST(RtuSlave, ACharacterDirectlyBehindTheRequestCostsNoAnswer) {
     const auto heard = line.now();
     EXPECT_EQ(line.run(20ms), Bytes{}) << "it may be the begin of a message";
     EXPECT_FALSE(line.run(heard + 200ms - line.now()).empty());
+}
+
+Bytes joined(Bytes one, const Bytes& other) {
+    one.insert(one.end(), other.begin(), other.end());
+    return one;
+}
+
+/// Noise, a half frame, a neighbour's frame of unknown length before it; another request behind it, also one
+/// for the other axis. Each in one piece, and a character at a time.
+TEST(RtuSlave, AStopIsFoundWhateverIsBeforeAndBehindIt) {
+    const Bytes stop = sealed(kUnit, kOrderStop);
+    const Bytes read = sealed(kUnit, kAskStatus);
+    const Bytes half(read.begin(), read.begin() + 5);
+    struct Burst {
+        Bytes bytes;
+        bool is_for_all = false;
+    };
+    const std::vector<Burst> bursts{
+        {joined({0}, stop)},
+        {joined(half, stop)},
+        {joined(sealed(9, {0x2B, 0x0E, 1, 0}), stop)},
+        {joined(stop, read)},
+        {joined(stop, sealed(kUnit + 1, kAskStatus))},
+        {joined({0}, sealed(0, kOrderStop)), true},
+        {sealed(0, {16, 0, 0, 0, 2, 4, 0, 2, 0, 7}), true},
+    };
+    for (const Burst& burst : bursts) {
+        for (const bool is_in_one : {true, false}) {
+            SCOPED_TRACE(testing::PrintToString(burst.bytes) + (is_in_one ? " in one" : " by characters"));
+            RtuBench line;
+            if (is_in_one) line.hear(burst.bytes);
+            for (std::size_t i = 0; i < burst.bytes.size() && !is_in_one; ++i) {
+                line.hear({burst.bytes[i]});
+                line.run(573us);  // 11 bits at 19200 baud
+            }
+            line.run(2s);
+            EXPECT_FALSE(line.runs());
+            EXPECT_EQ(line.second_runs(), !burst.is_for_all);
+            line.hear(read);
+            EXPECT_FALSE(line.run(500ms).empty()) << "the next one is answered";
+        }
+    }
 }
 
 TEST(RtuSlave, OthersTalkIsPassedOver) {
