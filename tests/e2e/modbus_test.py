@@ -445,6 +445,10 @@ class Served(service_case.ServiceCase):
         self.assertEqual((code, units), (0, [{"x": "1", "y": "4", "z": "3"}, {"x": "10", "y": "4", "z": "12"}]))
         self.assertIn("axis: warning: x, z have no modbus_unit: ", warning)
 
+    def test_units_by_place_are_told_at_the_start_too(self):
+        service = self.start(self.write(self.axis(), self.axis(name="y", motor="motory"), service='[modbus]\nlisten = "tcp:127.0.0.1:0"'))
+        self.assertRegex(service.said(), r"configuration, line \d+: axis: x, y have no modbus_unit: ")
+
     def test_a_unit_has_one_axis(self):
         code, mistakes, _ = self.units(("x", 3), ("y", 3))
         self.assertEqual(code, 2)

@@ -107,10 +107,9 @@ int check(const Options& options) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
-    for (auto warning : {clear_text(loaded.config.mqtt), moving_units(loaded.config)}) {
-        if (!warning) continue;
-        warning->text = "warning: " + warning->text;
-        print(options.file, {*warning});
+    for (Mistake warning : plant_warnings(loaded.config)) {
+        warning.text = "warning: " + warning.text;
+        print(options.file, {warning});
     }
     for (const std::string& note : found.notes) fmt::print("{}\n", note);
     for (const std::string& line : faces_in_words(loaded.config)) fmt::print("{}\n", line);

@@ -30,8 +30,7 @@ std::string units_in_words(const Config& config, const modbus::Settings& setting
     return fmt::format("{}", fmt::join(all, ", "));
 }
 
-}  // namespace
-
+/// Axes whose Modbus units change when another axis is added or removed.
 std::optional<Mistake> moving_units(const Config& config) {
     const bool has_modbus = config.modbus.listen.is_there() || config.modbus.rtu_port.is_there();
     if (!has_modbus || config.axes.size() < 2) return std::nullopt;
@@ -49,6 +48,15 @@ std::optional<Mistake> moving_units(const Config& config) {
                     "another machine; write one for each axis",
                     fmt::join(names, ", "), names.size() == 1 ? "has" : "have",
                     names.size() == 1 ? "it" : "them")};
+}
+
+}  // namespace
+
+std::vector<Mistake> plant_warnings(const Config& config) {
+    std::vector<Mistake> warnings;
+    for (auto& warning : {clear_text(config.mqtt), moving_units(config)})
+        if (warning) warnings.push_back(*warning);
+    return warnings;
 }
 
 std::vector<std::string> faces_in_words(const Config& config) {
@@ -87,6 +95,9 @@ std::vector<std::string> faces_in_words(const Config& config) {
 
 void PlantPart::open(faces::Axes axes, base::Instant now) {
     axes_ = std::move(axes);
+    for (const Mistake& warning : plant_warnings(config_))
+        journal_.write(LogLevel::warning, fmt::format("configuration, line {}: {}: {}", warning.line,
+                                                      warning.key, warning.text));
     if (config_.modbus.listen.is_there()) add_modbus();
     if (config_.modbus.rtu_port.is_there()) add_modbus_rtu();
     if (config_.metrics.listen.is_there()) add_metrics();

@@ -15,8 +15,8 @@ namespace nplc::boards {
 /// The configured faces for `check-config`, one line each; empty: none.
 std::vector<std::string> faces_in_words(const Config& config);
 
-/// For `check-config`: axes whose Modbus units change when another axis is added or removed.
-std::optional<Mistake> moving_units(const Config& config);
+/// For `check-config` and the journal at the start: what works, but not as most want it.
+std::vector<Mistake> plant_warnings(const Config& config);
 
 /// The configured plant interfaces. A missing one stops no axis and is retried.
 class PlantPart {
