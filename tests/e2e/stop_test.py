@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Stop, safe and hold whatever other clients do; and commands that come too late, on nanoplc and on the simulated gateway.
 
-usage: stop_test.py NANOPLC MACSIM NANOCTL NANOPLC_SIM SEQC MENDING.seq
+usage: stop_test.py NANOPLC MACSIM NANOCTL NANOPLC_SIM SEQC MENDING.seq MACREG
 """
 
 import fcntl
 import http.client
+import json
 import os
 import signal
 import socket
@@ -435,6 +436,54 @@ class Motorless(Service):
         self.assertIn("no stop waits", self.nanoctl("give-up-stop").stdout)
 
 
+class Wire:
+    """Between the gateway and the motor's terminal, until it is cut."""
+
+    def __init__(self, motor):
+        self.gateway, self.terminal = os.openpty()
+        tty.setraw(self.terminal)
+        self.motor = os.open(motor, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self.motor)
+        self.is_whole = True
+        for source, sink in ((self.gateway, self.motor), (self.motor, self.gateway)):
+            threading.Thread(target=self.carry, args=(source, sink), daemon=True).start()
+
+    def name(self):
+        return os.ttyname(self.terminal)
+
+    def carry(self, source, sink):
+        while True:
+            try:
+                data = os.read(source, 4096)
+                if self.is_whole:
+                    os.write(sink, data)
+            except OSError:
+                return
+
+
+class BesideTheMotorsOwnPort(ServiceCase):
+    """The FastMAC line is cut; the motor's MacTalk port is wired, too."""
+
+    def test_the_motor_is_stopped_over_it(self):
+        motor, _ = simulator.start(service_case.MACSIM, "--model", "MAC140", "--address", "254", "--fastmac", "pty:" + self.path("motor"),
+                                   "--mactalk", "pty:" + self.path("own"))
+        self.motors["motor"] = motor
+        wire = Wire(self.path("motor"))
+        os.symlink(wire.name(), self.path("line"))
+        axis = self.axis(motor="line", table=self.table)
+        service = self.start(self.write(axis.replace("[axis.user]", f'mactalk_port = "{self.path("own")}"\n[axis.user]')))
+        self.until_status(lambda status: status["state"] == "running" and status["link"] == "up")
+        wire.is_whole = False
+        self.ctl("stop")
+        status = self.until_status(lambda status: status["link"] == "down")
+        self.assertFalse(status["stop_unconfirmed"])
+        self.assertIn("the motor was stopped over its MacTalk port", service.said())
+        self.end(service)
+        result = subprocess.run([service_case.MACREG, "--port", self.path("own"), "--json", "get", "MODE_REG"],
+                                capture_output=True, text=True, timeout=LONG, check=False)
+        self.assertEqual(json.loads(result.stdout)["registers"][0]["value"], "INIT_MODE", result.stdout)
+
+
 class Terminal(Watching):
     """One line, which programs have in turns; a stop does not wait for its turn."""
 
@@ -574,5 +623,5 @@ del Gateway, Service, Simulated  # they have no tests of their own
 
 if __name__ == "__main__":
     (service_case.NANOPLC, service_case.MACSIM, service_case.NANOCTL, SIM, service_case.SEQC,
-     service_case.MENDING) = sys.argv[1:7]
-    unittest.main(argv=[sys.argv[0], *sys.argv[7:]])
+     service_case.MENDING, service_case.MACREG) = sys.argv[1:8]
+    unittest.main(argv=[sys.argv[0], *sys.argv[8:]])

@@ -67,15 +67,34 @@ class Stopping {
         if (!block) return std::nullopt;
         const Status status(*block);
         last_ = status;
-        if (is_ordered(status) && !ordered_at_) ordered_at_ = now();
+        if (is_ordered(status) && !ordered_at_) {
+            ordered_at_ = now();
+            ordered_uptime_ = status.uptime;
+        }
+        if (is_ordered(status) && !delivers(status) && !status.has(gw::kStopUnconfirmed) && !by_another_way_)
+            by_another_way_ = is_confirmation_logged();
         // A repeat would be another stop, to be confirmed again.
         is_asked_ = is_ordered(status) && status.has(gw::kStopUnconfirmed);
         return status;
     }
 
-    /// By its last status, however long ago that came.
+    /// By its last status, however long ago that came. While the link is down a stop that is no longer
+    /// unconfirmed may have been given up.
     bool waits_for_motor() const {
-        return ordered_at_ && is_ordered(*last_) && (!delivers(*last_) || last_->has(gw::kStopUnconfirmed));
+        if (!ordered_at_ || !last_ || !is_ordered(*last_)) return false;
+        return last_->has(gw::kStopUnconfirmed) || (!delivers(*last_) && !by_another_way_);
+    }
+    /// Over the motor's own MacTalk port.
+    bool is_confirmation_logged() const {
+        try {
+            const std::vector<LogEntry> log = read_log(gateway_);
+            return std::any_of(log.begin(), log.end(), [this](const LogEntry& entry) {
+                return entry.event == static_cast<std::uint8_t>(gw::Event::stop_confirmed) &&
+                       entry.uptime >= ordered_uptime_;
+            });
+        } catch (const LineError&) {
+            return false;
+        }
     }
     base::Instant deadline() const {
         const base::Instant end = begun_ + kLongestStop;
@@ -135,6 +154,8 @@ class Stopping {
     /// shows that.
     bool was_told_ = false;
     std::optional<Status> last_;
+    bool by_another_way_ = false;              ///< confirmed while the link was down
+    std::uint32_t ordered_uptime_ = 0;         ///< at ordered_at_
     std::optional<base::Instant> ordered_at_;  ///< first confirmation that the gateway has received it
 };
 

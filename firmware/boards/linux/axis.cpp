@@ -108,9 +108,7 @@ void Axis::open_pins() {
 /// A line that cannot be opened counts as a lost link and is retried separately.
 void Axis::open_motor() {
     motor_.open(config_.name, config_.motor, setting(Setting::motor_baud));
-    if (!config_.motor.mactalk_port.is_there()) return;
-    static_cast<void>(mactalk_port_.emplace().open(
-        config_.name, {.path = config_.motor.mactalk_port.text, .baud = 19'200}));
+    if (config_.motor.mactalk_port.is_there()) mactalk_.open(config_.name, config_.motor.mactalk_port.text);
 }
 
 void Axis::open_user_port() {
@@ -123,7 +121,8 @@ void Axis::start(base::Instant now) {
     gateway::Controller::Ports ports{pins_.inputs(), pins_.outputs(), watchdog_,
                                      motor_.start(settings_->values()), store_.storage()};
     user_.start();
-    if (mactalk_port_) ports.motor_mactalk_line = &mactalk_port_->uart();
+    ports.motor_mactalk_line =
+        mactalk_.start(ports.motor, static_cast<std::uint8_t>(setting(Setting::motor_address)));
     ports.set_points = &kSetPointArea;
     controller_.emplace(ports, kTableArea, table_memory_, *settings_,
                         is_complete() ? *cause_ : gateway::StartCause::service);
@@ -265,7 +264,7 @@ void Axis::serve(base::Instant now) {
     poll_controller(now);
     faces_.poll(*controller_, motor_.any_driver(), now, now);
     bool is_back = motor_.look(journal_.journal(), now);
-    if (mactalk_port_) mactalk_port_->look(journal_.journal(), now);
+    mactalk_.look(controller_->sequence(), journal_, now);
     is_back = user_.look_for_serial_port(now) || is_back;
     if (is_back) watch_ports();
     watch_or_wait(now);
@@ -304,7 +303,7 @@ base::Instant Axis::next(base::Instant now) {
     next = std::min(
         {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look()});
     next = std::min(next, faces_.next(*controller_));
-    if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
+    next = std::min(next, mactalk_.next_look(now));
     controller_->sequence().expect_poll(next, now);
     return next;
 }

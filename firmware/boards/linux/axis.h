@@ -14,6 +14,7 @@
 #include "hal_linux/event_loop.h"
 #include "journal.h"
 #include "lines.h"
+#include "mactalk_part.h"
 #include "motor_part.h"
 #include "user_connection.h"
 
@@ -119,7 +120,7 @@ class Axis {
     AxisStore store_{journal_, config_.name};
     AxisPins pins_;
     MotorPart motor_;
-    std::optional<ReconnectingUart> mactalk_port_;
+    MactalkPart mactalk_;
     UserConnection user_{journal_};
     AxisReporter reporter_{journal_};
     std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};
