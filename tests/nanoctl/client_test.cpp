@@ -217,10 +217,20 @@ TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
     Bench bench;
     bench.run_a_table();
     bench.unit.board.link_state = motor::Link::down;
+    bench.unit.board.stop_is_confirmed = false;
     EXPECT_THROW(stop_machine(bench.gateway, Command::stop), NotConfirmed);
+    bench.unit.board.stop_is_confirmed = true;
     bench.unit.board.link_state = motor::Link::up;
     EXPECT_EQ(stop_machine(bench.gateway, Command::stop).run_state, gw::RunState::stopped);
     EXPECT_EQ(bench.refusal([&] { stop_machine(bench.gateway, Command::hold); }), gw::Result::not_running);
+}
+
+TEST(Client, AStopConfirmedWhileTheLinkIsDownIsDone) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.link_state = motor::Link::down;
+    bench.unit.board.stop_takes = std::chrono::milliseconds{300};
+    EXPECT_EQ(stop_machine(bench.gateway, Command::stop).run_state, gw::RunState::stopped);
 }
 
 /// A connection on the wire that the other end closes after some writes.

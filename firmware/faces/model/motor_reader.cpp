@@ -87,11 +87,16 @@ MotorReader::Ended MotorReader::ended_since(const gateway::Controller& controlle
 MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Instant now) {
     if (!begun_) begun_ = now;
     if (controller.user_port().awaits_motor()) last_.port_waited = now;
-    if (!motor::link_is_usable(controller.motor().link()) || now - *begun_ > kLongest) {
+    const bool is_usable = motor::link_is_usable(controller.motor().link());
+    if (asked_ && is_usable) {  // first, for a process that was halted: it may have ended in time
+        const State state = take(controller, now);
+        if (state != State::under_way) return state;
+    }
+    if (!is_usable || now - *begun_ > kLongest) {
         drop(controller);
         return State::failed;
     }
-    if (asked_) return take(controller, now);
+    if (asked_) return State::under_way;
     if (is_free(controller) && now - last_.ended >= pause(controller, now)) {
         const motor::Counters before = controller.motor().counters();
         asked_ = controller.motor().begin_access(*wanted_);
