@@ -35,6 +35,11 @@ bool is_full(int reason) {
     return reason == EAGAIN || reason == ETIMEDOUT;
 }
 
+/// The program is not there, or not yet; one that was killed leaves its socket in the file system.
+bool is_absent(int reason) {
+    return reason == ECONNREFUSED || reason == ENOENT;
+}
+
 class SocketClient final : public DescriptorClient {
   public:
     SocketClient(FileDescriptor descriptor, std::string name, std::function<std::string()> other_client)
@@ -66,7 +71,8 @@ host::ByteClient::Opened open_unix_client(const std::string& path) {
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
-    if (reason != 0) return {nullptr, cannot_connect(name, reason), false, is_full(reason)};
+    if (reason != 0)
+        return {nullptr, cannot_connect(name, reason), false, is_full(reason), is_absent(reason)};
     return {std::make_unique<SocketClient>(std::move(socket), name, [path] { return client_of_unix(path); }),
             {}};
 }
@@ -79,7 +85,8 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
-    if (reason != 0) return {nullptr, cannot_connect(name, reason), false, is_full(reason)};
+    if (reason != 0)
+        return {nullptr, cannot_connect(name, reason), false, is_full(reason), is_absent(reason)};
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     const std::uint16_t port = ntohs(address->sin_port);

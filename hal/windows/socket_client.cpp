@@ -139,7 +139,8 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     address.sin_port = ::htons(known->port);
     Socket socket(::socket(AF_INET, SOCK_STREAM, IPPROTO_TCP));
     const int reason = socket ? join(socket.get(), address) : ::WSAGetLastError();
-    if (reason != 0) return {nullptr, cannot_connect(name, reason)};
+    const bool is_absent = reason == WSAECONNREFUSED || reason == WSAETIMEDOUT;
+    if (reason != 0) return {nullptr, cannot_connect(name, reason), false, false, is_absent};
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, reinterpret_cast<const char*>(&on), sizeof on);
     return {std::make_unique<SocketClient>(std::move(socket), name), {}};

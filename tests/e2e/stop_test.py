@@ -352,12 +352,14 @@ class Names:
 
     def test_one_that_is_not_confirmed_says_so(self):
         self.halted()
-        for endpoint, command in ((self.endpoint, "stop"), ("unix:" + self.path("nobody"), "safe"), (self.path("none"), "hold")):
+        for endpoint, command, waits in ((self.endpoint, "stop", False), ("unix:" + self.path("nobody"), "safe", True),
+                                         (self.path("none"), "hold", False)):
             result = subprocess.run([service_case.NANOCTL, "--port", endpoint, command], capture_output=True, text=True,
                                     timeout=LONG, check=False)
             self.assertEqual(result.returncode, 4, result.stderr)
             self.assertIn("THE MACHINE MAY STILL BE RUNNING", result.stderr)
-            self.assertEqual(result.stderr.count("\n"), 1)
+            self.assertEqual("waiting 10 s for the program" in result.stderr, waits)
+            self.assertEqual(result.stderr.count("\n"), 2 if waits else 1)
         self.goes_on(0)
         self.until(lambda: self.state() == 0)
 
@@ -609,6 +611,42 @@ class Nobody(ServiceCase):
                 client.close()
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("THE MACHINE MAY STILL BE RUNNING", done.stderr)
+
+
+class BeingRestarted(ServiceCase):
+    def stop(self, endpoint):
+        stop = subprocess.Popen([service_case.NANOCTL, "--port", endpoint, "stop"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                text=True)
+        said = stop.stderr.readline()
+        self.assertIn("waiting 10 s for the program", said)
+        return stop
+
+    def test_a_service_that_is_not_there_yet_is_waited_for(self):
+        stop = self.stop("unix:" + self.path("x"))
+        self.plug_in()
+        service = self.start(self.write(self.axis(table=self.table)))
+        said, complaint = stop.communicate(timeout=LONG)
+        self.assertEqual(stop.returncode, 0, complaint + service.said())
+        self.assertIn("stopped", said)
+
+    def test_ctrl_c_ends_the_wait(self):
+        dead = socket.socket(socket.AF_UNIX)
+        dead.bind(self.path("dead"))  # nobody listens there
+        for name in ("none", "dead"):
+            stop = self.stop("unix:" + self.path(name))
+            stop.send_signal(signal.SIGINT)
+            complaint = stop.communicate(timeout=LONG)[1]
+            self.assertEqual(stop.returncode, 130, complaint)
+            self.assertIn("THE MACHINE MAY STILL BE RUNNING", complaint)
+        dead.close()
+
+    def test_what_cannot_heal_is_not_waited_for(self):
+        for endpoint, code in (("tcp:nowhere.invalid:5", 2), ("tcp:127.0.0.1:0", 2), ("what", 2)):
+            stop = subprocess.run([service_case.NANOCTL, "--port", endpoint, "stop"], capture_output=True, text=True, timeout=LONG,
+                                  check=False)
+            self.assertEqual(stop.returncode, code, stop.stderr)
+            self.assertIn("THE MACHINE MAY STILL BE RUNNING", stop.stderr)
+            self.assertNotIn("waiting", stop.stderr)
 
 
 class OnTcp(Door, Service):

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
+#include "host/clock.h"
 #include "host/endpoint.h"
 #include "host/interruption.h"
 #include "host/printable.h"
@@ -93,7 +96,9 @@ int run(arguments::App& app, Common& common, int argc, char** argv) {
     return common.exit_code;
 }
 
-std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClient::Holding holding) {
+namespace {
+
+void check_port(const Common& common) {
     if (common.port.empty())
         throw UserError(fmt::format("no port; name one with --port or in the environment's {}",
                                     variable(common, "PORT")));
@@ -102,13 +107,56 @@ std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClie
     if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())
         throw UserError(fmt::format("--baud {}: no line has that speed; take one of {}", common.baud,
                                     fmt::join(kSpeeds, ", ")));
-    auto opened = host::ByteClient::open(common.port, common.baud, holding);
+}
+
+std::unique_ptr<host::ByteClient> client_of(host::ByteClient::Opened opened) {
     if (opened.never) throw UserError(opened.error);
     if (opened.client == nullptr)
         throw mactalk_client::LineError(opened.full ? mactalk_client::LineError::Kind::port_full
                                                     : mactalk_client::LineError::Kind::port_gone,
                                         opened.error);
     return std::move(opened.client);
+}
+
+}  // namespace
+
+std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClient::Holding holding) {
+    check_port(common);
+    return client_of(host::ByteClient::open(common.port, common.baud, holding));
+}
+
+host::ByteClient::Opened open_patiently(const std::function<host::ByteClient::Opened()>& open,
+                                        base::Instant end, const Waiting& with) {
+    constexpr base::Milliseconds kBetweenTries{20};
+    bool told = false;
+    for (;;) {
+        host::ByteClient::Opened opened = open();
+        const bool may_heal = !opened.client && (opened.full || opened.absent);
+        if (!may_heal || with.now() >= end || !with.goes_on()) return opened;
+        if (opened.absent && !told) with.tell();
+        told = told || opened.absent;
+        with.sleep(kBetweenTries);
+    }
+}
+
+std::unique_ptr<host::ByteClient> open_for_stop(const Common& common, host::ByteClient::Holding holding) {
+    check_port(common);
+    const Waiting with{
+        .now = host::steady_now,
+        .sleep =
+            [](base::Microseconds time) {
+                std::this_thread::sleep_for(std::chrono::microseconds(time.count()));
+            },
+        .goes_on = goes_on,
+        .tell =
+            [&] {
+                host::complain(fmt::format("{}: {}: nobody listens there now; waiting {} s for the program",
+                                           common.program, common.port, kLongestOpening.count() / 1000));
+            }};
+    auto opened = open_patiently([&] { return host::ByteClient::open(common.port, common.baud, holding); },
+                                 host::steady_now() + kLongestOpening, with);
+    if (!opened.client && !opened.never) look_for_interruption();
+    return client_of(std::move(opened));
 }
 
 void guard(Common& common, const std::function<void()>& what) {

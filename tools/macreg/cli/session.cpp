@@ -101,7 +101,7 @@ std::unique_ptr<host::ByteClient> open(const Common& common) {
 
 std::unique_ptr<host::ByteClient> open_for_stop(const Common& common) {
     static_cast<void>(model_option(common));
-    return command_line::open_port(common);
+    return command_line::open_for_stop(common);
 }
 
 constexpr unsigned kStopsAtOnce = 2;

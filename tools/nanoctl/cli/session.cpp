@@ -23,28 +23,19 @@ namespace {
 
 /// Long enough for another program's whole upload.
 constexpr base::Milliseconds kTurnWait{60'000};
-constexpr base::Milliseconds kBetweenTries{20};
 
-/// Reconnects a socket that the gateway closed, or that has no free connection at the moment.
+/// Connects to a socket whose gateway is restarting or has no free connection at the moment, and again where
+/// it closed the connection.
 std::unique_ptr<ByteClient> open_for_stop(const Common& common) {
     constexpr auto kHolding = ByteClient::Holding::at_once;
-    if (!host::Endpoint(common.port).is_socket()) return command_line::open_port(common, kHolding);
+    const base::Instant end = host::steady_now() + kLongestStop;
+    auto first = command_line::open_for_stop(common, kHolding);
+    if (!host::Endpoint(common.port).is_socket()) return first;
     const auto sleep = [](base::Microseconds time) {
         std::this_thread::sleep_for(std::chrono::microseconds(time.count()));
     };
-    const base::Instant end = host::steady_now() + kLongestStop;
-    for (;;) {
-        const base::Microseconds left = end - host::steady_now();
-        try {
-            const auto again = [&common] { return ByteClient::open(common.port, common.baud, kHolding); };
-            return std::make_unique<Reconnecting>(command_line::open_port(common, kHolding), again, sleep,
-                                                  left);
-        } catch (const LineError& error) {
-            if (error.kind() != LineError::Kind::port_full || left <= base::Microseconds{0} || !goes_on())
-                throw;
-        }
-        sleep(kBetweenTries);
-    }
+    const auto again = [&common] { return ByteClient::open(common.port, common.baud, kHolding); };
+    return std::make_unique<Reconnecting>(std::move(first), again, sleep, end - host::steady_now());
 }
 
 /// Stop commands neither wait nor need a password.
@@ -132,6 +123,8 @@ void stop_work(Common& common, const std::function<void(Session&)>& what) {
         } catch (const LineError& error) {
             throw command_line::Failure(command_line::kNotConfirmed,
                                         fmt::format("{}: {}", error.what(), kMayStillRun));
+        } catch (const mactalk_client::Interrupted& error) {
+            throw mactalk_client::Interrupted(fmt::format("{}: {}", error.what(), kMayStillRun));
         } catch (const UserError& error) {
             throw UserError(fmt::format("{}: {}", error.what(), kMayStillRun));
         }

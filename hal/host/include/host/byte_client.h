@@ -31,9 +31,10 @@ class ByteClient {
     };
     struct Opened {
         std::unique_ptr<ByteClient> client;
-        std::string error;   ///< the error and its remedy, one line; empty when it was opened
-        bool never = false;  ///< the endpoint or the speed is invalid
-        bool full = false;   ///< the server has no room for another client at the moment
+        std::string error;    ///< the error and its remedy, one line; empty when it was opened
+        bool never = false;   ///< the endpoint or the speed is invalid
+        bool full = false;    ///< the server has no room for another client at the moment
+        bool absent = false;  ///< no program serves it at the moment; one that is being started will
     };
     /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows any
     /// speed of the port; not used for sockets.

@@ -120,6 +120,26 @@ int run(arguments::App& app, Common& common, int argc, char** argv);
 std::unique_ptr<host::ByteClient> open_port(
     const Common& common, host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
 
+/// What open_patiently waits with.
+struct Waiting {
+    std::function<base::Instant()> now;
+    std::function<void(base::Microseconds)> sleep;
+    std::function<bool()> goes_on;
+    std::function<void()> tell;  ///< once, when it begins to wait for a program that is absent
+};
+/// Opens again until `end` what is full or absent. Returns what the last attempt did; what else is wrong with
+/// the endpoint, and an interruption, end it at once.
+host::ByteClient::Opened open_patiently(const std::function<host::ByteClient::Opened()>& open,
+                                        base::Instant end, const Waiting& with);
+
+/// How long a stop tries to reach the program that serves a socket: longer than a restart of it takes.
+inline constexpr base::Milliseconds kLongestOpening{10'000};
+
+/// open_port for a stop: waits kLongestOpening for the program that serves a socket, and says so once on
+/// standard error. Throws Interrupted, too.
+std::unique_ptr<host::ByteClient> open_for_stop(
+    const Common& common, host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
+
 /// --password-file, or the environment's PROGRAM_PASSWORD_FILE.
 void add_password_option(arguments::App& app, Common& common);
 
