@@ -430,12 +430,18 @@ class Motorless(Service):
         self.assertEqual(result.returncode, 4, result.stdout)
         self.assertIn("the link to the motor is down", result.stderr)
         self.assertIn("THE MACHINE MAY STILL BE RUNNING", result.stderr)
-        self.assertIn("STOP NOT CONFIRMED", self.nanoctl("status").stdout)
+        self.assertRegex(self.nanoctl("status").stdout, r"STOP NOT CONFIRMED by the motor for \d+\.\d s: it may be moving")
+        self.assertGreater(json.loads(self.nanoctl("--json", "status").stdout)["stop_unconfirmed_ms"], 0)
+        service = self.running[0]
+        self.until(lambda: "the motor has not confirmed the stop for 1 s: it may be moving" in service.said(), service)
         given_up = self.nanoctl("give-up-stop")
         self.assertEqual(given_up.returncode, 0, given_up.stderr)
         self.assertIn("THE MOTOR MAY BE MOVING", given_up.stdout)
         self.assertNotIn("STOP NOT CONFIRMED", self.nanoctl("status").stdout)
         self.assertIn("no stop waits", self.nanoctl("give-up-stop").stdout)
+        self.assertEqual(json.loads(self.nanoctl("--json", "status").stdout)["stop_unconfirmed_ms"], 0)
+        self.until(lambda: "the stop is given up by " in service.said(), service)
+        self.assertEqual(service.said().count("has not confirmed the stop for 1 s"), 1)
 
 
 class Wire:

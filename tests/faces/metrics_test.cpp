@@ -47,6 +47,18 @@ TEST(Exposition, CountsAndHistogram) {
     EXPECT_TRUE(holds(text, "nanoplc_events_total{axis=\"x\",event=\"link_down\"} 2"));
 }
 
+TEST(Exposition, HowLongAStopIsNotConfirmed) {
+    faces::AxisModel axis("x");
+    faces::AxisImage image = image_of(kNow);
+    image.own[gw::UPTIME] = 20'000;
+    axis.board().put(image);
+    EXPECT_TRUE(holds(exposition({&axis}, "1", kNow), "nanoplc_stop_unconfirmed_seconds{axis=\"x\"} 0"));
+    image.own[gw::STATUS] = gw::kStopUnconfirmed;
+    image.own[gw::STOP_SINCE] = 7'500;
+    axis.board().put(image);
+    EXPECT_TRUE(holds(exposition({&axis}, "1", kNow), "nanoplc_stop_unconfirmed_seconds{axis=\"x\"} 12.5"));
+}
+
 TEST(Exposition, WhatIsNotKnownHasNoLine) {
     faces::AxisModel never("never");
     faces::AxisModel old("old");

@@ -9,6 +9,7 @@
 #include "nanoctl/reconnecting.h"
 #include "nanoctl/status.h"
 #include "nanoctl/stopping.h"
+#include "nanoctl/texts.h"
 #include "nanoctl/transfer.h"
 #include "store/settings.h"
 #include "store_bench.h"
@@ -406,6 +407,26 @@ TEST(Client, AStopOnItsWayIsNoAlarmAndOneThatIsNotConfirmedIs) {
 
     bench.unit.board.link_state = motor::Link::down;
     EXPECT_TRUE(StopConfirmation{}.is_overdue(bench.status())) << "the motor could not be told";
+}
+
+TEST(Client, AStopThatIsNotConfirmedSaysForHowLong) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.stop_takes = std::chrono::milliseconds{100};
+    stop_machine(bench.gateway, Command::stop);
+    EXPECT_EQ(stop_unconfirmed_ms(bench.gateway, bench.status()), 0U);
+    bench.gateway.command(Command::run);
+    bench.unit.board.stop_is_confirmed = false;
+    bench.gateway.command(Command::stop);
+    bench.master.pause(std::chrono::milliseconds{12'000});
+    const std::uint32_t time = stop_unconfirmed_ms(bench.gateway, bench.status());
+    EXPECT_GE(time, 12'000U);
+    EXPECT_LT(time, 12'500U) << "virtual time, with the messages at 19200 baud";
+    EXPECT_NE(unconfirmed_text(12'345).find("STOP NOT CONFIRMED by the motor for 12.3 s: it may be moving"),
+              std::string::npos);
+    EXPECT_NE(unconfirmed_text(0).find("by the motor: it may be moving"), std::string::npos);
+    bench.gateway.command(Command::give_up_stop);
+    EXPECT_EQ(stop_unconfirmed_ms(bench.gateway, bench.status()), 0U);
 }
 
 TEST(Client, SettingsOutliveAResetIfKept) {

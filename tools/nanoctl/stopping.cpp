@@ -171,6 +171,14 @@ bool StopConfirmation::is_overdue(const Status& status) {
     return !delivers(status) || base::Milliseconds{status.uptime - *since_} >= kWait;
 }
 
+/// A stop of the gateway's start is since 0.
+std::uint32_t stop_unconfirmed_ms(GatewayClient& gateway, const Status& status) {
+    if (!status.has(gw::kStopUnconfirmed)) return 0;
+    const std::uint32_t since = gateway.read(gw::STOP_SINCE);
+    const Status now(gateway.read_block(gw::STATUS));
+    return now.has(gw::kStopUnconfirmed) ? now.uptime - since : 0;
+}
+
 Status status_after_stop(GatewayClient& gateway) {
     StopConfirmation confirmation;
     for (;;) {

@@ -10,6 +10,11 @@ std::string_view held_remark(const Status& status) {
            "`nanoctl run`";
 }
 
+std::string unconfirmed_text(std::uint32_t milliseconds) {
+    return fmt::format("STOP NOT CONFIRMED by the motor{}: it may be moving (mend the line, or give-up-stop)",
+                       milliseconds == 0 ? "" : fmt::format(" for {:.1f} s", milliseconds / 1000.0));
+}
+
 std::string terms_text(std::size_t bytes) {
     const std::size_t terms = bytes / 8 - 1;
     return fmt::format("{} term{} and the end term", terms, terms == 1 ? "" : "s");

@@ -1,5 +1,9 @@
 #include "axis_reporter.h"
 
+#include <array>
+#include <utility>
+
+#include "base/bytes.h"
 #include "faces/set_point_book.h"
 #include "log_messages.h"
 
@@ -8,7 +12,7 @@ namespace {
 
 /// A motor that has not answered for this time after the start is reported; one that is powered up together
 /// with the board needs some time.
-constexpr base::Milliseconds kFirstAnswer{5'000};
+constexpr base::Milliseconds kFirstAnswer = StopMessages::kFirstAnswer;
 
 using registers::gateway::Event;
 
@@ -50,12 +54,14 @@ bool is_of_store(const gateway::EventLog::Entry& entry) {
 void AxisReporter::start(base::Instant now) {
     events_.restart();
     drops_.restart();
+    stop_messages_.restart();
     tell_silence_at_ = now + kFirstAnswer;
 }
 
 void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                           base::Instant now) {
     report_events(controller, holder);
+    report_stop(controller, holder, now);
     for (const LogMessage& message : motor.news())
         journal_.write(message.level, message.text, {{"EVENT", "drive"}});
     report_link(motor, now);
@@ -64,6 +70,7 @@ void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, con
 void AxisReporter::report_events(gateway::Controller& controller, const faces::Sitter* holder) {
     events_.look(controller.sequence().log(), [&](const gateway::EventLog::Entry& entry) {
         if (!has_store_ && is_of_store(entry)) return;
+        stop_is_logged_ = stop_is_logged_ || static_cast<Event>(entry.event) == Event::stop_confirmed;
         const bool is_link_up = static_cast<Event>(entry.event) == Event::link_up;
         if (is_link_up && !link_messages_.writes_whole()) return;
         LogMessage message = in_words(entry);
@@ -87,6 +94,20 @@ void AxisReporter::report_drops(gateway::Controller& controller) {
                         {"SET_POINT", one.name},
                         {"REASON", std::string(set_points::key_of(one.why))}});
     }
+}
+
+void AxisReporter::report_stop(gateway::Controller& controller, const faces::Sitter* holder,
+                               base::Instant now) {
+    std::array<std::uint8_t, 4> command{};
+    controller.registers().read(registers::gateway::COMMAND, command, now);
+    const auto message =
+        stop_messages_.look({.is_unconfirmed = controller.sequence().stop_unconfirmed(),
+                             .link_is_usable = motor::link_is_usable(controller.motor().link()),
+                             .is_logged = std::exchange(stop_is_logged_, false),
+                             .last_command = base::load_u32(command.data()),
+                             .operator_name = holder == nullptr ? std::string_view() : holder->name},
+                            now);
+    if (message) journal_.write(message->level, message->text, {{"EVENT", message->event}});
 }
 
 void AxisReporter::report_link(MotorPart& motor, base::Instant now) {

@@ -12,6 +12,7 @@
 #include "motor/motor.h"
 #include "motor_part.h"
 #include "seat/seat.h"
+#include "stop_messages.h"
 
 namespace nplc::boards {
 
@@ -29,11 +30,14 @@ class AxisReporter {
     void report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
                 base::Instant now);
     /// Latest time of the next report().
-    base::Instant next_report() const { return std::min(tell_silence_at_, link_messages_.next()); }
+    base::Instant next_report() const {
+        return std::min({tell_silence_at_, link_messages_.next(), stop_messages_.next()});
+    }
 
   private:
     void report_events(gateway::Controller& controller, const faces::Sitter* holder);
     void report_drops(gateway::Controller& controller);
+    void report_stop(gateway::Controller& controller, const faces::Sitter* holder, base::Instant now);
     void report_link(MotorPart& motor, base::Instant now);
 
     AxisJournal& journal_;
@@ -42,6 +46,8 @@ class AxisReporter {
     faces::DropWatch drops_;
     motor::Link told_link_ = motor::Link::down;
     LinkMessages link_messages_;
+    StopMessages stop_messages_;
+    bool stop_is_logged_ = false;  ///< its confirmation, since the last report
     bool has_store_ = true;
 };
 

@@ -48,6 +48,7 @@ constexpr Row kRows[] = {
     {"held", "held"},
     {"waiting", "waiting"},
     {"stop_unconfirmed", "stop_unconfirmed"},
+    {"stop_unconfirmed_time", "stop_unconfirmed_seconds", G, kMilli},
     {"safe", "safe"},
     {"error", "error"},
     {"in_position", "in_position"},

@@ -35,6 +35,12 @@ PointValue status_bit(const AxisImage& image, base::Instant now, const Scaling&)
     return plain(image, now, image.is_set(bit) ? 1 : 0);
 }
 
+/// Since the start of the gateway where STOP_SINCE is 0.
+PointValue stop_unconfirmed_time(const AxisImage& image, base::Instant now, const Scaling&) {
+    const bool waits = image.is_set(gw::kStopUnconfirmed);
+    return plain(image, now, waits ? image[gw::UPTIME] - image[gw::STOP_SINCE] : 0);
+}
+
 template <RunState first, RunState second = first>
 PointValue run_state(const AxisImage& image, base::Instant now, const Scaling&) {
     return plain(image, now, image.run_state() == first || image.run_state() == second ? 1 : 0);
@@ -153,6 +159,7 @@ constexpr Point kPoints[] = {
     {"settings_differ", "", B, false, "settings differ from the stored ones", status_bit<gw::kSettingsDiffer>},
     {"cannot_go_on", "", B, false, "held, and cannot go on from there", status_bit<gw::kCannotGoOn>},
     {"stop_unconfirmed", "", B, false, "the motor was told to stop and has not confirmed it: it may be moving", status_bit<gw::kStopUnconfirmed>},
+    {"stop_unconfirmed_time", "ms", W, false, "since the motor was told to stop, while it has not confirmed it; else 0", stop_unconfirmed_time},
     {"run_state", "", W, false, "0 stopped, 1 waits for the motor, 2 running, 3 about to be held, 4 held", own<gw::STATUS, 0, 7>},
     {"step", "", W, false, "0..62", own<gw::STEP>},
     {"timer", "ms", W, false, "what is left of it", own<gw::TIMER>},

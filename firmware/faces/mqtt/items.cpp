@@ -17,8 +17,8 @@ using faces::Quality;
 namespace {
 
 /// They change with every image and add nothing to the timestamps.
-constexpr std::string_view kRestless[]{"heartbeat",   "uptime",   "scans",        "scan_time",
-                                       "contact_age", "accesses", "user_messages"};
+constexpr std::string_view kRestless[]{"heartbeat",   "uptime",   "scans",         "scan_time",
+                                       "contact_age", "accesses", "user_messages", "stop_unconfirmed_time"};
 
 DataType type_of(const faces::Point& point) {
     switch (point.type) {

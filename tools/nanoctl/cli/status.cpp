@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "causes/codes.h"
 #include "cli/certificates.h"
@@ -13,7 +14,7 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-Json document_of(const Status& status, const Names& names) {
+Json document_of(const Status& status, const Names& names, std::uint32_t unconfirmed_ms) {
     return {{"state", name_of(status.run_state)},
             {"step", status.step},
             {"step_name", names.step_name(status.step)},
@@ -39,6 +40,7 @@ Json document_of(const Status& status, const Names& names) {
             {"at_breakpoint", status.has(gw::kAtBreakpoint)},
             {"can_go_on", !status.has(gw::kCannotGoOn)},
             {"stop_unconfirmed", status.has(gw::kStopUnconfirmed)},
+            {"stop_unconfirmed_ms", unconfirmed_ms},
             {"table", status.has(gw::kTable)},
             {"upload", status.has(gw::kUpload)},
             {"stored_differs", status.has(gw::kStoredDiffers)},
@@ -47,7 +49,8 @@ Json document_of(const Status& status, const Names& names) {
             {"virtual_motor", status.has(gw::kVirtualMotor)}};
 }
 
-std::string line_of(const Status& status, const Names& names, bool stop_is_overdue) {
+/// `overdue_ms`: how long a stop that should have been confirmed is not, 0: not known. Empty: none is.
+std::string line_of(const Status& status, const Names& names, std::optional<std::uint32_t> overdue_ms) {
     std::string text = fmt::format("{}, step {}, timer {} ms, counter {}, in {}, out {}",
                                    name_of(status.run_state), names.step(status.step), status.timer,
                                    status.counter, signals_text(status.inputs, 6, names, true),
@@ -56,8 +59,8 @@ std::string line_of(const Status& status, const Names& names, bool stop_is_overd
     if (status.has(gw::kMotorError)) text += ", ERROR";
     if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
     text += held_remark(status);
-    if (stop_is_overdue)
-        text += ", STOP NOT CONFIRMED by the motor: it may be moving (mend the line, or give-up-stop)";
+    if (overdue_ms)
+        text += ", " + unconfirmed_text(*overdue_ms);
     else if (status.has(gw::kStopUnconfirmed))
         text += ", the motor is being stopped";
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
@@ -147,7 +150,9 @@ void show_status(Session& session, const StatusOptions& options) {
     const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
     const auto count = [&](gw::Number number) { return counters[number - gw::LINK_LOSSES]; };
     const std::uint32_t flags = of(gw::STORE_FLAGS);
-    std::string text = line_of(status, session.names(), status.has(gw::kStopUnconfirmed));
+    const std::uint32_t unconfirmed_ms = stop_unconfirmed_ms(gateway, status);
+    const auto overdue_ms = status.has(gw::kStopUnconfirmed) ? std::optional(unconfirmed_ms) : std::nullopt;
+    std::string text = line_of(status, session.names(), overdue_ms);
     text +=
         fmt::format("\nfirmware {}, up for {}", version_text(of(gw::FW_VERSION)), time_text(status.uptime));
     text += fmt::format("\nactive table {}; stored table {}",
@@ -174,7 +179,7 @@ void show_status(Session& session, const StatusOptions& options) {
     if (status.has(gw::kSettingsDiffer)) text += "\nsettings differ from the stored ones";
     const Why why = options.why ? ask_why(gateway, status) : why_of_gateway(gateway, status);
     text += why_text(why);
-    Json document = document_of(status, session.names());
+    Json document = document_of(status, session.names(), unconfirmed_ms);
     document.update({{"firmware", version_text(of(gw::FW_VERSION))},
                      {"table_bytes", of(gw::TABLE_BYTES)},
                      {"table_crc32", of(gw::TABLE_CRC)},
@@ -214,11 +219,15 @@ void watch(Session& session, const WatchOptions& options) {
         quiet.timer = 0;
         quiet.force_left = 0;
         const bool is_overdue = confirmation.is_overdue(status);
-        const std::string line = line_of(quiet, session.names(), is_overdue);
-        if (line != last || options.all)
-            session.tell(fmt::format("{:>12}  {}", time_text(status.uptime),
-                                     line_of(status, session.names(), is_overdue)),
-                         document_of(status, session.names()));
+        const auto line_at = [&](const Status& shown, std::uint32_t ms) {
+            return line_of(shown, session.names(), is_overdue ? std::optional(ms) : std::nullopt);
+        };
+        const std::string line = line_at(quiet, 0);
+        if (line != last || options.all) {
+            const std::uint32_t unconfirmed_ms = stop_unconfirmed_ms(session.gateway(), status);
+            session.tell(fmt::format("{:>12}  {}", time_text(status.uptime), line_at(status, unconfirmed_ms)),
+                         document_of(status, session.names(), unconfirmed_ms));
+        }
         last = line;
     });
 }

@@ -35,6 +35,10 @@ class StopConfirmation {
     std::optional<std::uint32_t> since_;  ///< uptime, ms
 };
 
+/// How long the motor has not confirmed the last stop, in ms of the gateway's time; 0 if it has. `status`:
+/// the gateway's latest. Throws what GatewayClient does.
+std::uint32_t stop_unconfirmed_ms(GatewayClient& gateway, const Status& status);
+
 /// The status; while a stop is not confirmed and the link delivers, read again for kConfirmationWait at the
 /// most. Throws what GatewayClient does.
 Status status_after_stop(GatewayClient& gateway);
