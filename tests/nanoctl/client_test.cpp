@@ -429,6 +429,20 @@ TEST(Client, AStopThatIsNotConfirmedSaysForHowLong) {
     EXPECT_EQ(stop_unconfirmed_ms(bench.gateway, bench.status()), 0U);
 }
 
+TEST(Client, AStopWithAVirtualMotorTellsNoMotor) {
+    Bench bench;
+    bench.run_a_table();
+    EXPECT_EQ(stop_remark(stop_machine(bench.gateway, Command::stop)), "");
+    bench.gateway.write(gw::register_of(store::Setting::virtual_motor), 1);
+    for (const Command command : {Command::stop, Command::safe, Command::hold}) {
+        bench.gateway.command(Command::run);
+        bench.master.pause(std::chrono::milliseconds{50});
+        EXPECT_EQ(stop_remark(stop_machine(bench.gateway, command)),
+                  "; no motor is told: virtual_motor is on");
+        stop_machine(bench.gateway, Command::stop);
+    }
+}
+
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
     const auto reg = gw::register_of(store::Setting::safe_outputs);

@@ -10,6 +10,10 @@ std::string_view held_remark(const Status& status) {
            "`nanoctl run`";
 }
 
+std::string stop_remark(const Status& status) {
+    return status.has(registers::gateway::kVirtualMotor) ? "; no motor is told: virtual_motor is on" : "";
+}
+
 std::string unconfirmed_text(std::uint32_t milliseconds) {
     return fmt::format("STOP NOT CONFIRMED by the motor{}: it may be moving (mend the line, or give-up-stop)",
                        milliseconds == 0 ? "" : fmt::format(" for {:.1f} s", milliseconds / 1000.0));

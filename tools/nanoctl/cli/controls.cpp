@@ -17,6 +17,14 @@ void tell_state(Session& session, const Status& status, std::string_view rest = 
         {{"state", name_of(status.run_state)}, {"step", status.step}});
 }
 
+void tell_stop(Session& session, const Status& status) {
+    session.tell(fmt::format("{}, step {}{}", name_of(status.run_state), session.names().step(status.step),
+                             stop_remark(status)),
+                 {{"state", name_of(status.run_state)},
+                  {"step", status.step},
+                  {"motor_told", !status.has(gw::kVirtualMotor)}});
+}
+
 void start(Session& session) {
     session.gateway().command(gw::Command::run);
     const Status status = session.status();
@@ -61,7 +69,7 @@ void add_stop(arguments::App& app, Common& common, gw::Command order, const char
     arguments::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
         stop_work(common,
-                  [&](Session& session) { tell_state(session, stop_machine(session.gateway(), order)); });
+                  [&](Session& session) { tell_stop(session, stop_machine(session.gateway(), order)); });
     });
 }
 
