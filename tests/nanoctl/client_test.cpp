@@ -429,6 +429,32 @@ TEST(Client, AStopThatIsNotConfirmedSaysForHowLong) {
     EXPECT_EQ(stop_unconfirmed_ms(bench.gateway, bench.status()), 0U);
 }
 
+TEST(Client, AHoldThatDroppedOrdersSaysThatItCannotGoOnAndWhy) {
+    Bench bench;
+    bench.run_a_table();
+    EXPECT_EQ(stop_remark(stop_machine(bench.gateway, Command::hold)), "");
+    bench.gateway.command(Command::run);
+    bench.unit.board.is_settled = false;
+    const Status held = [&] {
+        bench.gateway.command(Command::hold);
+        bench.master.pause(std::chrono::milliseconds{600});
+        bench.unit.board.is_settled = true;
+        return stop_machine(bench.gateway, Command::hold);
+    }();
+    EXPECT_EQ(held.run_state, gw::RunState::held);
+    const std::string remark = stop_remark(held);
+    EXPECT_NE(remark.find("cannot go on from here"), std::string::npos) << remark;
+    EXPECT_NE(remark.find("orders that waited for it for longer than 500 ms were dropped"), std::string::npos)
+        << remark;
+    try {
+        bench.gateway.command(Command::run);
+        FAIL();
+    } catch (const Refused& refused) {
+        EXPECT_EQ(refused.result(), gw::Result::cannot_go_on);
+        EXPECT_NE(std::string(refused.what()).find("dropped orders"), std::string::npos) << refused.what();
+    }
+}
+
 TEST(Client, AStopWithAVirtualMotorTellsNoMotor) {
     Bench bench;
     bench.run_a_table();

@@ -6,12 +6,13 @@ namespace nplc::nanoctl {
 
 std::string_view held_remark(const Status& status) {
     if (!status.has(registers::gateway::kCannotGoOn)) return {};
-    return ", cannot go on from here: the motor cannot take up again what it did; `nanoctl stop`, then "
-           "`nanoctl run`";
+    return ", cannot go on from here: the motor cannot take up again what it did, or orders that waited for "
+           "it for longer than 500 ms were dropped; `nanoctl stop`, then `nanoctl run`";
 }
 
 std::string stop_remark(const Status& status) {
-    return status.has(registers::gateway::kVirtualMotor) ? "; no motor is told: virtual_motor is on" : "";
+    const bool is_virtual = status.has(registers::gateway::kVirtualMotor);
+    return std::string(held_remark(status)) + (is_virtual ? "; no motor is told: virtual_motor is on" : "");
 }
 
 std::string unconfirmed_text(std::uint32_t milliseconds) {

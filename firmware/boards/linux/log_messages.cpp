@@ -130,8 +130,10 @@ JournalFields fields_of(const gateway::EventLog::Entry& entry) {
 LogMessage in_words(const gateway::EventLog::Entry& entry) {
     if (entry.event < 16) return of_reason(static_cast<SafeReason>(entry.event), entry.step);
     const char* const remark =
-        entry.detail == 1 ? "; the motor cannot take up again what it did: stop, then run from the start"
-                          : "";
+        entry.detail == 1
+            ? "; it cannot go on from there: the motor cannot take up again what it did, or orders that "
+              "waited for it for longer than 500 ms were dropped; stop, then run from the start"
+            : "";
     switch (static_cast<Event>(entry.event)) {
         case Event::started:
             return {LogLevel::notice, "the sequence runs"};

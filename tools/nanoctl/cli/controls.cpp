@@ -18,11 +18,13 @@ void tell_state(Session& session, const Status& status, std::string_view rest = 
 }
 
 void tell_stop(Session& session, const Status& status) {
+    Json document{{"state", name_of(status.run_state)},
+                  {"step", status.step},
+                  {"motor_told", !status.has(gw::kVirtualMotor)}};
+    if (status.run_state == gw::RunState::held) document["can_go_on"] = !status.has(gw::kCannotGoOn);
     session.tell(fmt::format("{}, step {}{}", name_of(status.run_state), session.names().step(status.step),
                              stop_remark(status)),
-                 {{"state", name_of(status.run_state)},
-                  {"step", status.step},
-                  {"motor_told", !status.has(gw::kVirtualMotor)}});
+                 document);
 }
 
 void start(Session& session) {

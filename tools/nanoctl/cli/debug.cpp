@@ -184,7 +184,10 @@ std::string detail_text(const LogEntry& entry, const KnownChanges& known) {
             return entry.detail == 1 ? ", by silence" : ", by the user";
         case gw::Event::held:
         case gw::Event::breakpoint:
-            return entry.detail == 1 ? ", cannot go on from there" : "";
+            return entry.detail == 1
+                       ? ", cannot go on from there: the motor cannot take it up again, or orders were "
+                         "dropped"
+                       : "";
         case gw::Event::stop_confirmed:
             return fmt::format(", {} ms after it was asked", entry.detail);
         case gw::Event::line_late:

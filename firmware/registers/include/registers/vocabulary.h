@@ -390,8 +390,8 @@ constexpr std::string_view describe(Result result) {
          {too_late,
           "it waited longer than 1 s to be read, or a stop came before it, and was not carried out"},
          {cannot_go_on,
-          "the motor cannot take up again what it did before it was held (homing, gear, or what somebody "
-          "else told it); stop, then run from the start"},
+          "the motor cannot take up again what it did before it was held (homing, gear, what somebody "
+          "else told it), or the hold dropped orders that waited; stop, then run from the start"},
          {no_proof,
           "the table has no certificate, and setting require_proof asks for one; upload it with --proof"},
          {seat_taken,
