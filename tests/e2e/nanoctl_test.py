@@ -565,6 +565,18 @@ class Words(Case):
         self.assertTrue(self.ctl("force", "OUT2=1")["outputs_kept_safe"])
         self.assertIn("the safe state keeps the outputs", self.call("force").stdout)
 
+    def test_kept_forces_that_are_ended_elsewhere_end_it(self):
+        self.start()
+        for end, by in ((("force", "--off"), "ended elsewhere"), (("safe",), "ended by a safe command")):
+            forcing = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "force", "IN0=1", "--keep"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.running.append(forcing)
+            self.assertIn("IN0 = 1", forcing.stdout.readline())
+            self.ctl(*end)
+            self.assertIn("the forces were " + by, forcing.communicate(timeout=LONG)[1])
+            self.assertEqual(forcing.returncode, 1)
+            self.running.remove(forcing)
+
     def test_watch_and_kept_forces_end_with_who_reads_them(self):
         self.start()
         for arguments in (("watch", "--interval", "60000"), ("force", "IN0=1", "--keep")):

@@ -6,6 +6,7 @@
 
 #include "base/crc32.h"
 #include "gateway_unit.h"
+#include "nanoctl/forces.h"
 #include "nanoctl/reconnecting.h"
 #include "nanoctl/status.h"
 #include "nanoctl/stopping.h"
@@ -453,6 +454,33 @@ TEST(Client, AHoldThatDroppedOrdersSaysThatItCannotGoOnAndWhy) {
         EXPECT_EQ(refused.result(), gw::Result::cannot_go_on);
         EXPECT_NE(std::string(refused.what()).find("dropped orders"), std::string::npos) << refused.what();
     }
+}
+
+TEST(Client, KeptForcesThatAreEndedElsewhereAreNotRenewed) {
+    Bench bench;
+    bench.run_a_table();
+    const Forces kept{.in = 0x0101, .out = 0};
+    const auto force = [&] {
+        bench.gateway.write(gw::FORCE_IN, 0x0301);
+        EXPECT_EQ(renew_forces(bench.gateway, kept), std::nullopt) << "more may be forced";
+        bench.master.pause(std::chrono::milliseconds{4'000});
+        EXPECT_EQ(renew_forces(bench.gateway, kept), std::nullopt);
+        bench.master.pause(std::chrono::milliseconds{4'000});
+        EXPECT_EQ(renew_forces(bench.gateway, kept), std::nullopt) << "renewed: it lasts 5 s";
+    };
+    force();
+    bench.gateway.write(gw::FORCE_IN, 0);
+    EXPECT_EQ(renew_forces(bench.gateway, kept).value_or(""), "the forces were ended elsewhere");
+    force();
+    stop_machine(bench.gateway, Command::safe);
+    EXPECT_EQ(renew_forces(bench.gateway, kept).value_or(""), "the forces were ended by a safe command");
+    force();
+    bench.gateway.write(gw::FORCE_IN, 0x0300);
+    EXPECT_EQ(renew_forces(bench.gateway, kept).value_or(""), "the forces were changed elsewhere");
+    force();
+    bench.master.pause(std::chrono::milliseconds{6'000});
+    EXPECT_EQ(renew_forces(bench.gateway, kept).value_or(""),
+              "the forces were ended by themselves: nobody renewed them in time");
 }
 
 TEST(Client, AStopWithAVirtualMotorTellsNoMotor) {

@@ -1,6 +1,7 @@
 #include "axis_reporter.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "base/bytes.h"
@@ -54,6 +55,7 @@ bool is_of_store(const gateway::EventLog::Entry& entry) {
 void AxisReporter::start(base::Instant now) {
     events_.restart();
     drops_.restart();
+    force_messages_.restart();
     stop_messages_.restart();
     tell_silence_at_ = now + kFirstAnswer;
 }
@@ -73,7 +75,9 @@ void AxisReporter::report_events(gateway::Controller& controller, const faces::S
         stop_is_logged_ = stop_is_logged_ || static_cast<Event>(entry.event) == Event::stop_confirmed;
         const bool is_link_up = static_cast<Event>(entry.event) == Event::link_up;
         if (is_link_up && !link_messages_.writes_whole()) return;
-        LogMessage message = in_words(entry);
+        std::optional<LogMessage> words = force_messages_.message(entry, controller.sequence().forces());
+        if (!words) return;
+        LogMessage message = std::move(*words);
         if (const std::string changes = changes_of(entry, controller); !changes.empty())
             message.text += ": " + changes;
         JournalFields fields = fields_of(entry);

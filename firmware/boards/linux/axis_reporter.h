@@ -6,6 +6,7 @@
 #include "base/time.h"
 #include "faces/drop_watch.h"
 #include "faces/tally.h"
+#include "force_messages.h"
 #include "gateway/controller.h"
 #include "journal.h"
 #include "link_messages.h"
@@ -46,6 +47,7 @@ class AxisReporter {
     faces::DropWatch drops_;
     motor::Link told_link_ = motor::Link::down;
     LinkMessages link_messages_;
+    ForceMessages force_messages_;
     StopMessages stop_messages_;
     bool stop_is_logged_ = false;  ///< its confirmation, since the last report
     bool has_store_ = true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/session.h"
+#include "nanoctl/forces.h"
 #include "nanoctl/set_points.h"
 #include "nanoctl/texts.h"
 
@@ -121,14 +122,15 @@ void tell_forces(Session& session) {
                  {{"forced", forced}, {"left_ms", left}, {"outputs_kept_safe", kept_safe}});
 }
 
-/// Forces time out unless renewed.
-void keep_forces(Session& session, double seconds) {
+/// Forces time out unless renewed. Whoever ended or changed them meant it: nothing is forced anew then.
+void keep_forces(Session& session, const Forces& kept, double seconds) {
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(seconds * 1e6)};
     const std::uint32_t timeout = std::max(session.gateway().read(gw::FORCE_LEFT), 100U);
     while (goes_on() && output_has_reader() && (seconds == 0 || session.now() - begun < limit)) {
         session.pause(base::Milliseconds{std::min(timeout / 4, 500U)});
-        session.gateway().write(gw::FORCE_LEFT, 0);
+        if (const auto ended = renew_forces(session.gateway(), kept))
+            throw command_line::Failure(command_line::kRefused, *ended);
     }
     session.gateway().write(gw::FORCE_IN, 0);
     session.gateway().write(gw::FORCE_OUT, 0);
@@ -143,8 +145,11 @@ void force(Session& session, const ForceOptions& options) {
         if (options.off) gateway.write(one.reg, 0);
         if (one.touched()) gateway.write(one.reg, one.over(gateway.read(one.reg)));
     }
+    const Forces kept = options.what.empty() ? read_forces(gateway)
+                                             : Forces{.in = in.levels | in.mask << in.mask_at,
+                                                      .out = out.levels | out.mask << out.mask_at};
     tell_forces(session);
-    if (options.keep || options.seconds > 0) keep_forces(session, options.seconds);
+    if (options.keep || options.seconds > 0) keep_forces(session, kept, options.seconds);
 }
 
 bool is_of_set_points(const LogEntry& entry) {
