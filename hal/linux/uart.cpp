@@ -14,6 +14,7 @@
 
 #include "any_baud.h"
 #include "file_descriptor.h"
+#include "hal_linux/latency.h"
 #include "terminal_port.h"
 
 namespace nplc::hal_linux {
@@ -48,14 +49,6 @@ bool has_flow_control(int descriptor) {
     return (mode.c_iflag & kFlowControl) != 0 || (mode.c_cflag & static_cast<tcflag_t>(CRTSCTS)) != 0;
 }
 
-/// Otherwise an FTDI adapter delays characters by 16 ms. Not supported by every driver.
-void ask_for_low_latency(int descriptor) {
-    serial_struct serial{};
-    if (::ioctl(descriptor, TIOCGSERIAL, &serial) != 0) return;
-    serial.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
-    ::ioctl(descriptor, TIOCSSERIAL, &serial);
-}
-
 bool set_rs485(int descriptor, const Rs485& wanted) {
     serial_rs485 mode{};
     mode.flags = SER_RS485_ENABLED | (wanted.rts_on_send ? SER_RS485_RTS_ON_SEND : SER_RS485_RTS_AFTER_SEND);
@@ -76,7 +69,7 @@ std::string set_up(int descriptor, const UartSettings& settings) {
         return path +
                ": the driver of this device keeps its flow control, which takes 11h and 13h for its own; "
                "use another adapter";
-    ask_for_low_latency(descriptor);
+    ask_for_low_latency(descriptor);  // otherwise an FTDI adapter delays characters by 16 ms
     ::tcflush(descriptor, TCIOFLUSH);
     return {};
 }

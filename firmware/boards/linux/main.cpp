@@ -15,6 +15,7 @@
 #include "host/text_file.h"
 #include "plant_part.h"
 #include "service.h"
+#include "slow_adapters.h"
 #include "stored.h"
 #include "wiring.h"
 
@@ -107,10 +108,11 @@ int check(const Options& options) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
-    for (Mistake warning : plant_warnings(loaded.config)) {
-        warning.text = "warning: " + warning.text;
-        print(options.file, {warning});
-    }
+    std::vector<Mistake> warnings =
+        options.no_devices ? std::vector<Mistake>{} : slow_adapters(loaded.config);
+    for (const Mistake& warning : plant_warnings(loaded.config)) warnings.push_back(warning);
+    for (Mistake& warning : warnings) warning.text = "warning: " + warning.text;
+    print(options.file, warnings);
     for (const std::string& note : found.notes) fmt::print("{}\n", note);
     for (const std::string& line : faces_in_words(loaded.config)) fmt::print("{}\n", line);
     const std::size_t axes = loaded.config.axes.size();
