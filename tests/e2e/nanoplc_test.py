@@ -122,6 +122,19 @@ class Running(ServiceCase):
         self.ctl("run")
         self.moves()
 
+    def test_a_stop_by_macreg_that_the_motor_does_not_confirm(self):
+        self.plug_in()
+        self.start(self.write(self.axis()))
+        self.ctl("upload", self.table, "--run")
+        self.moves()
+        self.pull_out()
+        self.until_status(lambda status: status["link"] == "down")
+        stop = subprocess.run([service_case.MACREG, "--port", "unix:" + self.path("x"), "--patience", "300", "--address", "254", "set",
+                               "MODE_REG", "INIT_MODE"], capture_output=True, text=True, timeout=LONG, check=False)
+        self.assertEqual(stop.returncode, 4, stop.stderr)
+        self.assertIn("the motor may be moving", stop.stderr)
+        self.assertNotIn("MAC800", stop.stderr)
+
     def test_stored_settings_go_before_the_configuration(self):
         self.plug_in()
         config = self.write(self.axis(more="[axis.settings]\ndebounce = 5000\nautostart = false\n"))

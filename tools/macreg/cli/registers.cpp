@@ -209,7 +209,10 @@ void set_in(Session& session, const SetArguments& options) {
             try {
                 return change(session.motor(), *one.reg, one.raw);
             } catch (const mactalk_client::Ended& error) {
-                broke_off(error.what(), error.exit_code(), all, i, true);
+                const bool is_unstopped =
+                    is_stop(model, *one.reg, one.raw) && error.exit_code() == command_line::kNoAnswer;
+                broke_off(error.what(), is_unstopped ? command_line::kNotConfirmed : error.exit_code(), all,
+                          i, true);
             }
         }();
         Json document = value_document(*one.reg, model, outcome.after);

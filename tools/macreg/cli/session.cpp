@@ -101,7 +101,22 @@ std::unique_ptr<host::ByteClient> open(const Common& common) {
 
 std::unique_ptr<host::ByteClient> open_for_stop(const Common& common) {
     static_cast<void>(model_option(common));
-    return command_line::open_for_stop(common);
+    try {
+        return command_line::open_for_stop(common);
+    } catch (const LineError& error) {
+        throw command_line::Failure(
+            command_line::kNotConfirmed,
+            fmt::format("{}; the stop could not be sent: the motor may be moving", error.what()));
+    }
+}
+
+/// As the gateway's settings say it; empty: there is none, or it does not answer.
+std::optional<Model> model_at_gateway(mactalk_client::Master& master) {
+    namespace gw = registers::gateway;
+    Motor any(master, kEveryone, Model::mac140);
+    if (!any.is_behind_gateway()) return std::nullopt;
+    const std::uint8_t setting = gw::register_of(gw::Setting::motor_is_mac800);
+    return master.read(gw::kDefaultAddress, setting) != 0 ? Model::mac800 : Model::mac140;
 }
 
 constexpr unsigned kStopsAtOnce = 2;
@@ -143,22 +158,36 @@ Session::Session(const Common& common) : Session(common, open(common)) {
 Session::Session(const Common& common, std::int64_t stop) : Session(common, open_for_stop(common)) {
     const auto model = model_option(common);
     const auto address = common.address != 0 ? static_cast<std::uint8_t>(common.address) : kEveryone;
-    const auto failed = [&](int exit_code, const std::string& why) {
-        const char* other = model ? "" : "; a MAC800 takes it with --model MAC800 only, unless it answers";
+    const auto failed = [](int exit_code, const std::string& why, const char* advice = "") {
         return command_line::Failure(exit_code,
-                                     fmt::format("the stop was sent, but {}{}; {}", kMayMove, other, why));
+                                     fmt::format("the stop was sent, but {}{}; {}", kMayMove, advice, why));
     };
     try {
         static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
         command_line::give_password(common, registers::gateway::kDefaultAddress, *wire_);
         find_motor();
     } catch (const LineError& error) {
-        if (error.kind() == LineError::Kind::no_answer)
-            static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
-        throw failed(error.exit_code(), error.what());
+        const char* const advice = stop_once_more(error, address, stop)
+                                       ? ""
+                                       : "; a MAC800 takes it with --model MAC800 only, unless it answers";
+        throw failed(command_line::kNotConfirmed, error.what(), advice);
     } catch (const mactalk_client::Ended& error) {
         throw failed(error.exit_code(), error.what());
     }
+}
+
+bool Session::stop_once_more(const LineError& error, std::uint8_t address, std::int64_t stop) {
+    auto model = model_option(common_);
+    if (error.kind() != LineError::Kind::no_answer) return model.has_value();
+    try {
+        static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
+        if (model) return true;
+        model = model_at_gateway(master_);
+        if (model == Model::mac800)
+            static_cast<void>(stop_unasked(master_, address, model, stop, kStopsAtOnce));
+    } catch (const LineError&) {  // the first error is told
+    }
+    return model.has_value();
 }
 
 Session::Session(const Common& common, std::unique_ptr<host::ByteClient> wire)

@@ -56,7 +56,7 @@ class Session {
   public:
     explicit Session(const Common& common);
     /// Sends a stop, this value of MODE_REG, before any request, and again if there is no answer; the Failure
-    /// then says that it is not confirmed.
+    /// then says that it is not confirmed (kNotConfirmed).
     Session(const Common& common, std::int64_t stop);
 
     Motor& motor() { return *motor_; }
@@ -78,6 +78,8 @@ class Session {
   private:
     Session(const Common& common, std::unique_ptr<host::ByteClient> wire);
     void find_motor();
+    /// After this error. Returns whether the motor's model is known, by --model or from a gateway.
+    bool stop_once_more(const mactalk_client::LineError& error, std::uint8_t address, std::int64_t stop);
 
     const Common& common_;
     std::unique_ptr<host::ByteClient> wire_;
