@@ -12,6 +12,8 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
+#include <algorithm>
+
 namespace nplc::toml_files {
 namespace {
 
@@ -51,6 +53,66 @@ Value value_of(const toml::node& node) {
     return value;
 }
 
+/// Looks how deep the tables and lists of a text lie in each other before they are built: toml++ and
+/// value_of() call themselves for each level. What is no TOML is looked at as far as toml++ reads it.
+class Depth {
+  public:
+    explicit Depth(std::string_view text) : text_(text) {}
+
+    /// The line where the text goes deeper than `most`, or 0.
+    int line_beyond(std::size_t most) {
+        while (at_ < text_.size()) {
+            take(text_[at_]);
+            if (depth() > most) return line_;
+        }
+        return 0;
+    }
+
+  private:
+    std::size_t depth() const { return (open_.empty() ? 0 : open_.back()) + parts_; }
+
+    void take(char c) {
+        if (c == '"' || c == '\'') return skip_quoted(c);
+        ++at_;
+        if (c == '#') {
+            at_ = std::min(text_.find('\n', at_), text_.size());
+        } else if (c == '\n') {
+            ++line_;
+            parts_ = 1;
+        } else if (c == '.') {
+            ++parts_;  // of a key; a number has one
+        } else if (c == ',') {
+            parts_ = 1;
+        } else if (c == '[' || c == '{') {
+            open_.push_back(depth());
+            parts_ = 1;
+        } else if ((c == ']' || c == '}') && !open_.empty()) {
+            open_.pop_back();
+        }
+    }
+
+    void skip_quoted(char quote) {
+        const std::string three(3, quote);
+        const bool is_long = text_.substr(at_).starts_with(three);
+        at_ += is_long ? 3 : 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (is_long ? text_.substr(at_).starts_with(three) : c == quote || c == '\n') break;
+            if (c == '\\' && quote == '"' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
+            if (c == '\n') ++line_;
+            ++at_;
+        }
+        // A long one may end in two quotes of its own.
+        for (int left = is_long ? 5 : 1; left > 0 && at_ < text_.size() && text_[at_] == quote; --left) ++at_;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::vector<std::size_t> open_;  // the depth at each open bracket
+    std::size_t parts_ = 1;          // of the key that is being read
+    int line_ = 1;
+};
+
 }  // namespace
 
 const Value* Value::find(std::string_view key) const {
@@ -61,6 +123,11 @@ const Value* Value::find(std::string_view key) const {
 }
 
 File read_toml(std::string_view text) {
+    if (const int line = Depth(text).line_beyond(kDeepestToml); line != 0)
+        return {{},
+                line,
+                "tables, lists and keys with dots lie more than " + std::to_string(kDeepestToml) +
+                    " deep in each other; write them flatter: nothing here needs more than 4"};
     const toml::parse_result parsed = toml::parse(text);
     if (parsed) return {value_of(parsed.table()), 0, {}};
     const toml::parse_error& error = parsed.error();

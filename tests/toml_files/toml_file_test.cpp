@@ -58,5 +58,51 @@ TEST(TomlFile, ALetterBehindAStrayQuoteIsRefused) {
               "");
 }
 
+std::string many(std::size_t count, const char* part) {
+    std::string text;
+    while (count-- > 0) text += part;
+    return text;
+}
+
+// Tables in each other are built, read and freed by functions that call themselves.
+TEST(TomlFile, WhatLiesTooDeepIsRefusedInItsLine) {
+    constexpr std::size_t kMany = 50'000;
+    const std::string texts[] = {
+        "a = 1\nb" + many(kMany, ".b") + " = 1",
+        "a = 1\n[b" + many(kMany, ".b") + "]",
+        "a = 1\n[[b" + many(kMany, " . b") + "]]",
+        "a = 1\nb" + many(kMany, ".\"b\"") + " = 1",
+        "a = 1\nb = {b" + many(kMany, ".b") + " = 1}",
+        "a = 1\nb = " + many(kMany, "["),
+        "a = 1\nb = " + many(kMany, "{b="),
+        "a = 1\nb = " + many(kMany, "[{b.b="),
+        "a = '''\n'''''\nb = \"\\\"\"\nc" + many(kMany, ".b"),
+        "a = \"\\\\\"\nb" + many(kMany, ".'b'") + " = 1",
+    };
+    for (const std::string& text : texts) {
+        const File file = read_toml(text);
+        EXPECT_EQ(file.line, text.starts_with("a = '") ? 4 : 2) << text.substr(0, 40);
+        EXPECT_TRUE(file.error.starts_with("tables, lists and keys with dots lie more than 16 deep"))
+            << file.error;
+    }
+}
+
+TEST(TomlFile, TheDeepestIsRead) {
+    EXPECT_EQ(read_toml("[a]\nb" + many(kDeepestToml - 1, ".b") + " = 1\nc.c = 1").error, "");
+    EXPECT_NE(read_toml("[a]\nb" + many(kDeepestToml, ".b") + " = 1").error, "");
+    EXPECT_EQ(read_toml("b = " + many(kDeepestToml - 1, "[") + many(kDeepestToml - 1, "]")).error, "");
+    EXPECT_NE(read_toml("b = " + many(kDeepestToml, "[") + many(kDeepestToml, "]")).error, "");
+}
+
+// Brackets and dots that stand side by side or in texts are not deep.
+TEST(TomlFile, LongIsNotDeep) {
+    for (const std::string& text :
+         {"a = [" + many(100, "1.5, [2.5, 3.5],\n") + "]", many(100, "[[a]]\nb.c = {d = 1.5, e = 2.5}\n"),
+          "a = \"" + many(100, "[.{\\\"") + "\" # " + many(100, "[.{"), "a = '" + many(100, "[.{") + "'",
+          "a = '''" + many(100, "[.{''\n") + "'''''",
+          "a = \"\"\"" + many(100, "[.{\"\"\n\\\"\\\n") + "\"\"\""})
+        EXPECT_EQ(read_toml(text).error, "") << text.substr(0, 40);
+}
+
 }  // namespace
 }  // namespace nplc::toml_files

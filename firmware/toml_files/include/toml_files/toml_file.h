@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -32,6 +33,10 @@ struct File {
     std::string error{};
 };
 
+/// The most tables and lists in each other; a key with dots counts as one for each part.
+inline constexpr std::size_t kDeepestToml = 16;
+
+/// What lies deeper than kDeepestToml is an error, found before it is built.
 File read_toml(std::string_view text);
 
 }  // namespace nplc::toml_files
