@@ -46,6 +46,34 @@ class PlotTrace(FolderCase):
             self.assertIn(text, done.stderr)
         self.assertFalse(os.path.exists(self.path(words[words.index("-o") + 1])))
 
+    def test_control_characters_of_inputs_do_not_reach_the_terminal(self):
+        self.put("bad.csv", "no trace")
+        self.put("t.csv", HEADER + "0,0,0,0,0,0,0,0,P1=8,0,0\n1,1,0,0,0,0,0,0,,0,0\n")
+        symbols = {"format": "nanoplc-symbols", "version": 1, "program": "\x1b[31mRED\u009b1m", "table": {"crc32": "\x1b1"},
+                   "steps": [{"number": 0, "name": "\x1b[2JA"}], "inputs": ["\x1b]0;a\x07"], "outputs": [], "registers": [], "motor": "MAC140"}
+        self.put("s.sym", json.dumps(symbols))
+        odd = "\x1b[31mred\n\u009b\x7f"
+        self.put(odd + ".csv", "no trace")
+        self.put(odd + ".sym", "{")
+        self.put("deep.sym", "[" * 100_000)
+        for words in (["bad.csv", "--sym", "s.sym"], ["t.csv", "--sym", "s.sym"], [odd + ".csv"], ["gone" + odd], ["t.csv", "--sym", odd + ".sym"],
+                      ["t.csv", "--sym", "deep.sym"], ["t.csv", odd]):
+            done = self.plot(*words, "-o", "t.svg")
+            self.assertEqual(done.returncode, 2, words)
+            self.assertNotRegex(done.stderr, "[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+            self.assertNotIn("Traceback", done.stderr)
+        for output in (odd + ".svgx", odd + "/t.svg"):
+            done = self.plot("t.csv", "-o", output)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertNotRegex(done.stderr, "[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
+    def test_a_picture_holds_no_control_characters(self):
+        self.put("t.csv", HEADER + "0,0,0,0,0,0,0,0,,0,0\n1,1,0,0,0,0,0,0,,0,0\n")
+        done = self.plot("t.csv", "-o", "t.svg", "--title", "a\x1b[31m", "--steps", "A\x07,B\u0085", "--names", "IN0=C\x01")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("a?[31m", self.read("t.svg"))
+        self.assertNotRegex(self.read("t.svg"), "[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
     def test_a_run_leaves_names_and_units(self):
         self.traced("pick_and_place", "t.csv")
         symbols = json.loads(self.read("t.csv.sym"))

@@ -3,6 +3,8 @@
 import subprocess
 from xml.sax.saxutils import escape
 
+from .plain import plain
+
 FORMATS = ("svg", "png", "pdf")
 DPI = 144
 PIECE = 200  # points of a line in one of Graphviz' strings, which are short
@@ -27,7 +29,7 @@ class Canvas:
         self.shapes.append(("line", points, colour, width))
 
     def text(self, x, y, words, anchor="start", colour="#333", size=12):
-        self.shapes.append(("text", x, y, words, anchor, colour, size))
+        self.shapes.append(("text", x, y, plain(words), anchor, colour, size))
 
 
 def svg(canvas):

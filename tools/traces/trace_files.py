@@ -74,7 +74,7 @@ class Symbols:
             self.read_units(file)
         except json.JSONDecodeError as error:
             raise Bad(f"{path}:{error.lineno}:{error.colno}: this is not JSON; name the F.sym that seqc build wrote") from error
-        except (AttributeError, KeyError, TypeError, ValueError, ZeroDivisionError) as error:
+        except (AttributeError, KeyError, RecursionError, TypeError, ValueError, ZeroDivisionError) as error:
             raise Bad(f"{path}: no symbol file; name the F.sym that seqc build wrote with the table") from error
 
     def read_units(self, file):
