@@ -4,6 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "base/json_depth.h"
+
 namespace nplc::orders {
 namespace {
 
@@ -11,6 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFormat = "nanoplc-report-1";
 constexpr std::size_t kLongestReport = std::size_t{16} * 1024;
+constexpr std::size_t kDeepestReport = 16;
 constexpr std::array<std::string_view, 9> kStates{
     "none", "fetching", "waiting", "activating", "trial", "failing", "confirmed", "rolled_back", "failed"};
 
@@ -82,7 +85,7 @@ std::string write_report(const Report& report) {
 }
 
 std::optional<Report> read_report(std::string_view text) {
-    if (text.size() > kLongestReport) return std::nullopt;
+    if (text.size() > kLongestReport || base::is_deeper(text, kDeepestReport)) return std::nullopt;
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object() || document.value("format", Json()) != Json(kFormat)) return std::nullopt;
     Report report;

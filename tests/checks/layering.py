@@ -51,7 +51,7 @@ MODULES = [
     Module("firmware/set_points", "set_points", ("base", "registers", "toml_files")),
     Module("firmware/digest", "digest", ()),
     Module("firmware/broker", "broker", (), os=True),
-    Module("firmware/orders", "orders", ("digest",)),
+    Module("firmware/orders", "orders", ("base", "digest")),
     Module("firmware/boards", None, ANY, os=True, clock=True),
     Module(
         "firmware/boards/bare_metal",
@@ -134,7 +134,7 @@ MODULES = [
     Module("tools/sequence/proof", "proof", ("digest",)),
     Module("tools/sequence/editing", "editing",
            ("seqc", "language", "symbols", "diagnostics", "table", "compiler", "report", "registers", "sequencer")),
-    Module("tools/sequence/rpc", "rpc", ()),
+    Module("tools/sequence/rpc", "rpc", ("base",)),
     # The one door from seqc to the simulator: scenarios are read and programs rehearsed by what nanoplc-sim uses.
     Module("tools/sequence/rehearsal", "rehearsal", ("base", "plant_file", "registers", "seqc", "sequencer", "set_points", "sim")),
     Module("tools/sequence/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "text",

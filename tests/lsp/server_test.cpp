@@ -30,6 +30,19 @@ TEST(Rpc, ReadsOverWhatIsNoJson) {
     EXPECT_EQ(rpc::read_message(stream).kind, rpc::Incoming::Kind::message);
 }
 
+// Identities and arguments are copied by functions that call themselves.
+TEST(Rpc, ReadsOverWhatIsTooDeep) {
+    const auto deep = [](std::size_t depth) {
+        const std::string content = R"({"id":)" + std::string(depth, '[') + std::string(depth, ']') + "}";
+        return "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;
+    };
+    std::istringstream stream(deep(500'000) + deep(rpc::kDeepestMessage) + deep(rpc::kDeepestMessage - 1));
+    EXPECT_EQ(rpc::read_message(stream).problem,
+              "the content's lists and objects lie more than 100 deep in each other");
+    EXPECT_EQ(rpc::read_message(stream).kind, rpc::Incoming::Kind::malformed);
+    EXPECT_EQ(rpc::read_message(stream).kind, rpc::Incoming::Kind::message);
+}
+
 TEST(Rpc, EndsInTheMiddleOfAMessage) {
     std::istringstream stream("Content-Length: 20\r\n\r\n{}");
     EXPECT_EQ(rpc::read_message(stream).kind, rpc::Incoming::Kind::end);

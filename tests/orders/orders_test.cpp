@@ -238,6 +238,9 @@ TEST(ReportText, ComesBackAsItWasWritten) {
     for (const std::string text : {"", "[]", "{}", R"({"format":"nanoplc-report-2"})",
                                    R"({"format":"nanoplc-report-1","order":{"state":"gone"}})"})
         EXPECT_FALSE(read_report(text)) << text;
+    std::string whole = write_report(report);
+    whole.insert(whole.find('{') + 1, "\"x\":" + std::string(7'000, '[') + std::string(7'000, ']') + ",");
+    EXPECT_FALSE(read_report(whole)) << "too deep";
 }
 
 }  // namespace

@@ -26,5 +26,15 @@ TEST(PanelNames, WithoutAScaleRevolutions) {
         EXPECT_TRUE(is_same(scale_in(text), {})) << text;
 }
 
+// Its values are copied and written by functions that call themselves.
+TEST(PanelNames, ADeepFileIsNotRead) {
+    constexpr std::size_t kMany = 200'000;
+    const std::string deep = R"({"table":{"crc32":"00000001"},"scale":{"unit":)" + std::string(kMany, '[') +
+                             std::string(kMany, ']') + "}}";
+    EXPECT_FALSE(is_for_table(deep, 1));
+    EXPECT_TRUE(is_same(scale_in(deep), {}));
+    EXPECT_TRUE(is_for_table(R"({"table":{"crc32":"00000001"},"x":[[{"y":[1]}]]})", 1));
+}
+
 }  // namespace
 }  // namespace nplc::panel

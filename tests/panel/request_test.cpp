@@ -75,6 +75,9 @@ TEST(PanelRequest, WhatIsNoRequestSaysWhy) {
           R"({"id":-1,"do":"seat"})", R"({"id":1e300,"do":"seat"})", R"({"id":1})", R"({"id":1,"do":7})"})
         EXPECT_FALSE(Request::read(text).error.empty()) << text;
     EXPECT_FALSE(Request::read(std::string(60'000, '[')).error.empty());
+    EXPECT_FALSE(Request::read(R"({"id":0,"do":"seat","x":)" + std::string(30'000, '[') +
+                               std::string(30'000, ']') + "}")
+                     .error.empty());
     EXPECT_TRUE(Request::read(R"({"id":0,"do":"seat"})").error.empty());
 }
 

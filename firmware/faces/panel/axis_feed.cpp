@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/json_depth.h"
 #include "causes/codes.h"
 #include "encoding.h"
+#include "panel/names.h"
 #include "registers/details.h"
 #include "registers/family.h"
 #include "registers/scale.h"
@@ -263,7 +265,9 @@ void AxisFeed::take_program() {
     const SymbolShelf::Found names = symbols_ == nullptr || table_->bytes.empty()
                                          ? SymbolShelf::Found()
                                          : symbols_->find(index_, table_->crc);
-    Json symbols = names.text.empty() ? Json() : Json::parse(names.text, nullptr, false);
+    Json symbols = names.text.empty() || base::is_deeper(names.text, kDeepestJson)
+                       ? Json()
+                       : Json::parse(names.text, nullptr, false);
     if (symbols.is_discarded() || !symbols.is_object()) symbols = Json();
     const Json message = {{"t", "program"},
                           {"axis", model_.name()},

@@ -5,10 +5,20 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_depth.h"
+
 namespace nplc::panel {
+namespace {
+
+nlohmann::json json_of(std::string_view text) {
+    if (base::is_deeper(text, kDeepestJson)) return {};
+    return nlohmann::json::parse(text, nullptr, false);
+}
+
+}  // namespace
 
 bool is_for_table(std::string_view text, std::uint32_t crc) {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto json = json_of(text);
     if (!json.is_object()) return false;
     const auto table = json.find("table");
     if (table == json.end() || !table->is_object()) return false;
@@ -18,7 +28,7 @@ bool is_for_table(std::string_view text, std::uint32_t crc) {
 }
 
 faces::Scaling scale_in(std::string_view text) {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto json = json_of(text);
     const auto scale = json.is_object() ? json.value("scale", nlohmann::json()) : nlohmann::json();
     if (!scale.is_object()) return {};
     const auto number = [&scale](const char* name) {

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "base/json_depth.h"
+#include "panel/names.h"
 #include "registers/gateway.h"
 
 namespace nplc::panel {
@@ -84,6 +86,10 @@ Asked motor_access(const Request& request, registers::Model model, base::Instant
 
 Request Request::read(std::string_view text) {
     Request request;
+    if (base::is_deeper(text, kDeepestJson)) {
+        request.error = "its lists and objects lie too deep in each other";
+        return request;
+    }
     request.body = nlohmann::json::parse(text, nullptr, false);
     if (request.body.is_discarded()) {
         request.error = "this is no JSON";

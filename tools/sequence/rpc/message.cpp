@@ -4,6 +4,8 @@
 #include <istream>
 #include <ostream>
 
+#include "base/json_depth.h"
+
 namespace nplc::rpc {
 namespace {
 
@@ -44,6 +46,10 @@ Incoming read_message(std::istream& in) {
     std::string content(*length, '\0');
     in.read(content.data(), static_cast<std::streamsize>(content.size()));
     if (static_cast<std::size_t>(in.gcount()) != content.size()) return {};
+    if (base::is_deeper(content, kDeepestMessage))
+        return {Incoming::Kind::malformed,
+                {},
+                "the content's lists and objects lie more than 100 deep in each other"};
     Json message = Json::parse(content, nullptr, false);
     if (message.is_discarded() || !message.is_object())
         return {Incoming::Kind::malformed, {}, "the content is no JSON object"};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 
 /// Of symbol files, as written by `seqc build`.
 namespace nplc::panel {
+
+/// The most lists and objects in each other, of symbol files and of requests too. What is deeper is not read.
+inline constexpr std::size_t kDeepestJson = 16;
 
 /// Whether `text` is the symbol file of the table with this CRC-32.
 bool is_for_table(std::string_view text, std::uint32_t crc);

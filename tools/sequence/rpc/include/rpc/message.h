@@ -13,6 +13,8 @@ using Json = nlohmann::json;
 
 /// Longer than any message of an editor.
 inline constexpr std::size_t kLongestMessage = 64U << 20;
+/// The most lists and objects in each other.
+inline constexpr std::size_t kDeepestMessage = 100;
 
 struct Incoming {
     enum class Kind : std::uint8_t { message, malformed, end };
