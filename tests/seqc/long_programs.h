@@ -99,6 +99,38 @@ inline std::vector<Long> long_programs(int count) {
         {"a name", at_top("STEP " + many("Name") + ": END_STEP"), "E080"},
         {"a number", in_step("EVERY_SCAN V_SOLL := " + many("9") + ";"), "E003"},
         {"a unit", in_step("EVERY_SCAN V_SOLL := 1 rev" + many("/s") + ";"), "E043"},
+        {"groups", at_top(many([](int i) { return "GROUP G" + text_of(i) + ": S;\n"; })), "W034"},
+        {"groups of groups", at_top("GROUP G0: S;\n" + many([](int i) {
+                                        return "GROUP G" + text_of(i + 1) + ": G" + text_of(i) + ", G" +
+                                               text_of(i) + ";\n";
+                                    }) +
+                                    "OUT OUT0 IN G" + text_of(count) + ";\n")},
+        {"unknown steps of groups",
+         at_top(many([](int i) { return "GROUP G" + text_of(i) + ": Q" + text_of(i) + ";\n"; })), "E021"},
+        {"outputs of groups", at_top(many([](int i) {
+             return "GROUP G" + text_of(i) + ": S;\nOUT OUT0 IN G" + text_of(i) + ";\n";
+         }))},
+        {"sequences", at_top(many([](int i) {
+             return "SEQUENCE Q" + text_of(i) +
+                    "() STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP END_SEQUENCE\n";
+         })),
+         "W005"},
+        {"calls",
+         at_top("SEQUENCE Q(CONST C) STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP "
+                "END_SEQUENCE STEP T: OWN ERROR; " +
+                many([](int i) { return "IF IN0 THEN CALL Q(" + text_of(i) + "); NEXT := S; END_IF\n"; }) +
+                "END_STEP")},
+        {"unknown sequences",
+         at_top("SEQUENCE Q() STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP END_SEQUENCE STEP T: "
+                "OWN ERROR; " +
+                many([](int i) { return "IF IN0 THEN CALL W" + text_of(i) + "(); NEXT := S; END_IF\n"; }) +
+                "END_STEP")},
+        {"unknown constants",
+         "PROGRAM P MOTOR MAC140;\n" + many([](int i) { return "CONST C" + text_of(i) + " := 1;\n"; }) +
+             "STEP S: OWN ERROR; IF IN0 THEN " +
+             many([](int i) { return "V_SOLL := W" + text_of(i) + ";\n"; }) + "END_IF END_STEP END_PROGRAM",
+         "E021"},
+        {"a word of foreign letters", many("\u00e9\u00e9\u00e9\u00e9"), "E001"},
         {"no words", "PROGRAM P " + many("\xFF "), "E001"},
         {"words", "PROGRAM P " + many("word "), "E010"},
     };

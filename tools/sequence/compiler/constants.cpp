@@ -52,8 +52,8 @@ bool Constants::declare(const ast::Constant& constant) {
     const auto value = worked_out(constant.value, nullptr, registers::Model::mac140);
     if (!value) {
         if (unknown_ != nullptr && report_.error_count() == errors) {
-            const std::vector<std::string_view> known = names();
-            const std::string near = suggestion(unknown_->text, known);
+            const std::string near =
+                report_.full_of_errors() ? std::string() : suggestion(unknown_->text, names());
             report_.add("E021", unknown_->span,
                         fmt::format("there is no constant '{}' above this line", unknown_->text),
                         !near.empty()

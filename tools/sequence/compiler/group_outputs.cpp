@@ -1,6 +1,10 @@
 #include "compiler/group_outputs.h"
 
 #include <bitset>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "compiler/on_conditions.h"
 #include "language/names.h"
@@ -10,46 +14,59 @@ namespace {
 
 using Steps = std::bitset<64>;
 
-std::vector<std::string_view> names_of(const std::vector<ast::Group>& groups) {
-    std::vector<std::string_view> names;
-    for (const ast::Group& group : groups) names.push_back(group.name.text);
-    return names;
-}
-
-/// Only groups before `limit`; duplicates and missing steps are reported elsewhere.
-Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast::Program& program,
-               Scope& scope) {
-    Steps steps;
-    for (const ast::Name& name : names) {
-        std::size_t group = 0;
-        while (group < limit && !same_name(program.groups[group].name.text, name.text)) ++group;
-        if (group < limit) {
-            steps |= steps_of(program.groups[group].steps, group, program, scope);
-        } else if (const auto number = scope.step(name, names_of(program.groups))) {
-            steps.set(*number);
+/// The steps of each group; a group may name those above it. Groups that stand twice and missing steps are
+/// reported elsewhere too.
+class Groups {
+  public:
+    Groups(const ast::Program& program, Scope& scope) : scope_(scope) {
+        for (const ast::Group& group : program.groups) names_.push_back(group.name.text);
+        for (const ast::Group& group : program.groups) {
+            const Steps steps = all_of(group.steps);
+            groups_.try_emplace(upper(group.name.text), steps);
         }
     }
-    return steps;
-}
+
+    Steps all_of(const std::vector<ast::Name>& names) {
+        Steps steps;
+        for (const ast::Name& name : names) {
+            const auto group = groups_.find(upper(name.text));
+            if (group != groups_.end()) {
+                steps |= group->second;
+            } else if (const auto number = scope_.step(name, names_)) {
+                steps.set(*number);
+            }
+        }
+        return steps;
+    }
+
+  private:
+    Scope& scope_;
+    std::vector<std::string_view> names_;
+    std::map<std::string, Steps> groups_;
+};
 
 }  // namespace
 
 void spread_outputs(ast::Program& program, Scope& scope) {
+    if (program.group_outputs.empty()) return;
+    std::vector<std::pair<std::uint8_t, ast::Step*>> numbered;
+    for (ast::Step& step : program.steps) {
+        if (scope.step_named(step.name.text) != &step) continue;  // it stands twice
+        const auto number = scope.step(step.name);
+        if (number && *number <= kLastNamed) numbered.emplace_back(*number, &step);
+    }
+    Groups groups(program, scope);
     for (const ast::GroupOutput& spread : program.group_outputs) {
-        const std::size_t groups = program.groups.size();
-        const Steps named = steps_of(spread.only, groups, program, scope);
+        const Steps named = groups.all_of(spread.only);
         Steps steps = named;
         for (const ast::Name& name : spread.except) {
-            const Steps left_out = steps_of({name}, groups, program, scope);
+            const Steps left_out = groups.all_of({name});
             if (left_out.any() && (left_out & named).none()) warn_of_idle_except(name, scope);
             steps &= ~left_out;
         }
-        for (std::size_t i = 0; i < scope.steps().size(); ++i) {
-            if (!steps.test(scope.number_of(i))) continue;
-            for (ast::Step& step : program.steps) {
-                if (&step == scope.steps()[i])
-                    step.outputs.insert(step.outputs.end(), spread.outputs.begin(), spread.outputs.end());
-            }
+        for (const auto& [number, step] : numbered) {
+            if (steps.test(number))
+                step->outputs.insert(step->outputs.end(), spread.outputs.begin(), spread.outputs.end());
         }
     }
 }

@@ -18,10 +18,8 @@ class Groups {
         for (const ast::Group& group : program.groups) {
             const Steps steps = all_of(group.steps);
             const auto [earlier, is_new] = groups_.try_emplace(upper(group.name.text), &group.name, steps);
-            const ast::Step* step = nullptr;
-            for (const ast::Step* named : scope.steps()) {
-                if (same_name(named->name.text, group.name.text)) step = named;
-            }
+            if (is_new) names_.push_back(group.name.text);
+            const ast::Step* step = scope.step_named(group.name.text);
             if (is_new && step == nullptr) {
                 scope.add_group(group.name.text, steps.to_ullong());
                 continue;
@@ -41,7 +39,7 @@ class Groups {
             const auto group = groups_.find(upper(name.text));
             if (group != groups_.end()) {
                 steps |= group->second.second;
-            } else if (const auto number = scope_.step(name, names_of_groups())) {
+            } else if (const auto number = scope_.step(name, names_)) {
                 steps.set(*number);
             }
         }
@@ -49,14 +47,9 @@ class Groups {
     }
 
   private:
-    std::vector<std::string_view> names_of_groups() const {
-        std::vector<std::string_view> names;
-        for (const auto& [upper_name, group] : groups_) names.push_back(group.first->text);
-        return names;
-    }
-
     Scope& scope_;
     std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
+    std::vector<std::string_view> names_;  ///< of the groups so far
 };
 
 /// In its target step it has no effect.

@@ -330,6 +330,10 @@ std::string_view RegisterValues::kind_of(const ast::Value& value) const {
 /// Reports a name where a value is required.
 void RegisterValues::report_no_value(const ast::Name& name, const Register* reg) {
     const std::string_view text = name.text;
+    if (report_.full_of_errors()) {  // not shown: a guess among many names would take long
+        report_.add("E021", name.span, fmt::format("there is no constant '{}'", text));
+        return;
+    }
     std::vector<std::string_view> names = names_.constants().names();
     const std::size_t constants = names.size();
     if (reg != nullptr) {

@@ -34,6 +34,9 @@ class Scope {
     /// Null if no named step has this number.
     const ast::Step* step_numbered(std::uint8_t number) const { return steps_.numbered(number); }
 
+    /// Null if there is none.
+    const ast::Step* step_named(std::string_view name) const { return steps_.named(name); }
+
     /// Number of a step by name; reports an unknown one.
     std::optional<std::uint8_t> step(const ast::Name& name,
                                      const std::vector<std::string_view>& groups = {}) {

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -24,6 +27,7 @@ class Expansion {
     void run() {
         refuse_same_names();
         callers_.resize(program_.steps.size());
+        for (const ast::Step& step : program_.steps) taken_.insert(upper(step.name.text));
         if (program_.power_up) expand_step(*program_.power_up, {}, false);
         // Steps added by a call are processed too. The limit is that of the table, with a margin for the
         // error message.
@@ -34,28 +38,25 @@ class Expansion {
             expand_step(step, callers, !callers.empty());
             program_.steps[i] = std::move(step);
         }
-        for (const ast::Sequence& sequence : program_.sequences) add_group(sequence);
+        add_groups();
     }
 
   private:
     void refuse_same_names() {
         for (std::size_t i = 0; i < program_.sequences.size(); ++i) {
-            for (std::size_t k = 0; k < i; ++k) {
-                if (!same_name(program_.sequences[i].name.text, program_.sequences[k].name.text)) continue;
-                report_
-                    .add("E020", program_.sequences[i].name.span,
-                         fmt::format("sequence '{}' stands twice", program_.sequences[i].name.text),
-                         "give one of them another name")
-                    .notes.push_back({program_.sequences[k].name.span, "the first one is here"});
-            }
+            const ast::Name& name = program_.sequences[i].name;
+            const auto [first, is_new] = places_.try_emplace(upper(name.text), i);
+            if (is_new) continue;
+            report_
+                .add("E020", name.span, fmt::format("sequence '{}' stands twice", name.text),
+                     "give one of them another name")
+                .notes.push_back({program_.sequences[first->second].name.span, "the first one is here"});
         }
     }
 
     const ast::Sequence* find(const ast::Name& name) const {
-        const auto found = std::find_if(
-            program_.sequences.begin(), program_.sequences.end(),
-            [&](const ast::Sequence& sequence) { return same_name(sequence.name.text, name.text); });
-        return found == program_.sequences.end() ? nullptr : &*found;
+        const auto found = places_.find(upper(name.text));
+        return found == places_.end() ? nullptr : &program_.sequences[found->second];
     }
 
     /// `inside`: the step belongs to a sequence, whose RETURNs are already replaced.
@@ -110,15 +111,8 @@ class Expansion {
                                       const std::vector<std::string>& callers) {
         const ast::Sequence* sequence = find(call.name);
         if (sequence == nullptr) {
-            std::vector<std::string_view> names;
-            for (const ast::Sequence& known : program_.sequences) names.push_back(known.name.text);
-            std::string help = suggestion(call.name.text, names);
-            if (help.empty())
-                help = names.empty() ? fmt::format("write SEQUENCE {}() .. END_SEQUENCE above the steps",
-                                                   call.name.text)
-                                     : fmt::format("there are: {}", fmt::join(names, ", "));
             report_.add("E021", call.name.span, fmt::format("there is no SEQUENCE '{}'", call.name.text),
-                        help);
+                        help_for(call.name.text));
             return std::nullopt;
         }
         if (sequence->is_broken || !fits(*sequence, call) || sequence->steps.empty()) return std::nullopt;
@@ -143,6 +137,19 @@ class Expansion {
         instances_[key] = first;
         add_steps(*sequence, call, back, now);
         return program_.steps[first].name;
+    }
+
+    std::string help_for(std::string_view name) const {
+        if (report_.full_of_errors()) return {};  // not shown
+        constexpr std::size_t kMostShown = 12;
+        std::vector<std::string_view> names;
+        for (const ast::Sequence& known : program_.sequences) names.push_back(known.name.text);
+        std::string help = suggestion(name, names);
+        if (!help.empty()) return help;
+        if (names.empty()) return fmt::format("write SEQUENCE {}() .. END_SEQUENCE above the steps", name);
+        const bool is_all = names.size() <= kMostShown;
+        if (!is_all) names.resize(kMostShown);
+        return fmt::format("there are: {}{}", fmt::join(names, ", "), is_all ? "" : ", ...");
     }
 
     bool fits(const ast::Sequence& sequence, const Statement& call) {
@@ -205,41 +212,45 @@ class Expansion {
             const auto [first, is_first] = families_.try_emplace(
                 upper(fmt::format("{}.{}", sequence.name.text, sequence.steps[i].name.text)), names[i].text);
             if (!is_first) origin.first = first->second;
+            taken_.insert(upper(step.name.text));
             program_.steps.push_back(std::move(step));
             callers_.push_back(callers);
         }
     }
 
-    std::string free_name(const std::string& wanted) const {
-        const auto is_taken = [&](const std::string& name) {
-            return std::any_of(program_.steps.begin(), program_.steps.end(),
-                               [&](const ast::Step& step) { return same_name(step.name.text, name); });
-        };
-        std::string name = wanted;
-        for (int n = 2; is_taken(name); ++n) name = fmt::format("{}_{}", wanted, n);
-        return name;
+    std::string free_name(const std::string& wanted) {
+        const auto is_taken = [&](const std::string& name) { return taken_.contains(upper(name)); };
+        if (!is_taken(wanted)) return wanted;
+        int& n = last_numbers_.try_emplace(upper(wanted), 2).first->second;
+        while (is_taken(fmt::format("{}_{}", wanted, n))) ++n;
+        return fmt::format("{}_{}", wanted, n);
     }
 
-    void add_group(const ast::Sequence& sequence) {
-        ast::Group group;
-        group.name = sequence.name;
+    /// In front of the program's own, the last one first.
+    void add_groups() {
+        std::unordered_map<std::string, std::vector<ast::Name>> steps;
         for (const ast::Step& step : program_.steps) {
-            if (step.origin && same_name(step.origin->sequence.text, sequence.name.text))
-                group.steps.push_back(step.name);
+            if (step.origin) steps[upper(step.origin->sequence.text)].push_back(step.name);
         }
-        const bool is_second = std::any_of(
-            program_.groups.begin(), program_.groups.end(),
-            [&](const ast::Group& other) { return other.name.span == find(sequence.name)->name.span; });
-        if (is_second) return;
-        if (group.steps.empty() && !program_.steps_missing && !report_.has_errors()) {
+        std::vector<ast::Group> groups;
+        for (const ast::Sequence& sequence : program_.sequences) {
+            if (&sequence != find(sequence.name)) continue;
+            ast::Group& group = groups.emplace_back();
+            group.name = sequence.name;
+            group.steps = std::move(steps[upper(sequence.name.text)]);
+            if (!group.steps.empty() || program_.steps_missing || report_.has_errors()) continue;
             report_.add("W005", sequence.name.span, fmt::format("nothing calls '{}'", sequence.name.text),
                         fmt::format("write CALL {}(..); NEXT := Step; or delete it", sequence.name.text));
         }
-        program_.groups.insert(program_.groups.begin(), std::move(group));
+        program_.groups.insert(program_.groups.begin(), std::make_move_iterator(groups.rbegin()),
+                               std::make_move_iterator(groups.rend()));
     }
 
     ast::Program& program_;
     Report& report_;
+    std::unordered_map<std::string, std::size_t> places_;  ///< of the sequences, by upper-case name
+    std::unordered_set<std::string> taken_;                ///< names of steps, upper case
+    std::unordered_map<std::string, int> last_numbers_;    ///< behind a name that is taken
     std::map<std::string, std::size_t> instances_;      ///< the first step of each
     std::map<std::string, std::string_view> families_;  ///< the first step of each name
     std::vector<std::vector<std::string>> callers_;     ///< of each step: the sequences that led to it

@@ -44,6 +44,11 @@ const ast::Step* StepNames::numbered(std::uint8_t number) const {
     return steps_[static_cast<std::size_t>(found - numbers_.begin())];
 }
 
+const ast::Step* StepNames::named(std::string_view name) const {
+    const auto place = places_.find(upper(name));
+    return place == places_.end() ? nullptr : steps_[place->second];
+}
+
 bool StepNames::has(std::string_view name) const {
     return places_.contains(upper(name));
 }
@@ -53,6 +58,10 @@ std::optional<std::uint8_t> StepNames::number_of(const ast::Name& name,
     const auto place = places_.find(upper(name.text));
     if (place != places_.end()) return numbers_[place->second];
     if (steps_missing_) return std::nullopt;
+    if (report_.full_of_errors()) {  // not shown: a guess among many names would take long
+        report_.add("E021", name.span, fmt::format("there is no step '{}'", name.text));
+        return std::nullopt;
+    }
     std::vector<std::string_view> names = groups;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
         if (numbers_[i] <= kLastNamed) names.push_back(steps_[i]->name.text);

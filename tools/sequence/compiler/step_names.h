@@ -31,6 +31,8 @@ class StepNames {
     /// Null if no named step has this number.
     const ast::Step* numbered(std::uint8_t number) const;
     bool has(std::string_view name) const;
+    /// Null if there is none.
+    const ast::Step* named(std::string_view name) const;
     /// Reports an unknown one; `groups` could have been meant as well.
     std::optional<std::uint8_t> number_of(const ast::Name& name, const std::vector<std::string_view>& groups);
 

@@ -33,6 +33,8 @@ class Unused {
                                   use.role == ast::Role::group;
             (of_steps ? used_steps_ : used_).insert(plain(text(use.span)));
         }
+        for (const ast::Sequence& sequence : program.sequences)
+            sequences_at_.insert(sequence.name.span.offset);
         for_each_send(plan, [this](const Send& send) { take(send); });
     }
 
@@ -113,10 +115,9 @@ class Unused {
     }
 
     void check_group(const ast::Group& group) {
-        const bool is_sequence =
-            std::any_of(program_.sequences.begin(), program_.sequences.end(),
-                        [&](const ast::Sequence& one) { return one.name.span == group.name.span; });
-        if (is_sequence || used_steps_.contains(upper(group.name.text)) || is_shared(group.name)) return;
+        if (sequences_at_.contains(group.name.span.offset) || used_steps_.contains(upper(group.name.text)) ||
+            is_shared(group.name))
+            return;
         report_.add(
             "W034", group.name.span,
             fmt::format("the group '{}' is declared, but nothing uses it", group.name.text),
@@ -171,6 +172,7 @@ class Unused {
     Report& report_;
     std::unordered_set<std::string> used_;        ///< names and addresses, upper case
     std::unordered_set<std::string> used_steps_;  ///< and groups
+    std::unordered_set<std::uint32_t> sequences_at_;
     std::set<Place> selected_;
     bool selects_by_number_ = false;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,14 +39,18 @@ inline std::string spelt_plainly(std::string_view word) {
         {"\u00dc", "Ue"}, {"\u00df", "ss"}, {"\u00e9", "e"},  {"\u00e8", "e"},  {"\u00e0", "a"},
         {"\u00e5", "aa"}, {"\u00f8", "oe"}, {"\u00e6", "ae"}, {"\u00e7", "c"},  {"\u00f1", "n"},
     };
-    std::string plain(word);
-    for (const auto& [letter, spelling] : kPlain) {
-        for (std::size_t at = plain.find(letter); at != plain.npos; at = plain.find(letter))
-            plain.replace(at, letter.size(), spelling);
+    constexpr std::size_t kLongestShown = 120;
+    std::string plain;
+    while (!word.empty() && plain.size() <= kLongestShown) {
+        const auto* const known = std::find_if(std::begin(kPlain), std::end(kPlain), [&](const auto& pair) {
+            return word.starts_with(pair.first);
+        });
+        if (known == std::end(kPlain) && !is_word(word.front())) break;
+        plain += known == std::end(kPlain) ? word.substr(0, 1) : known->second;
+        word.remove_prefix(known == std::end(kPlain) ? 1 : known->first.size());
     }
-    const bool done = std::all_of(plain.begin(), plain.end(), is_word);
-    return done ? fmt::format("write {}, or letters a to z, digits and _", plain)
-                : "names are letters a to z, digits and _";
+    return word.empty() ? fmt::format("write {}, or letters a to z, digits and _", plain)
+                        : "names are letters a to z, digits and _";
 }
 
 }  // namespace nplc::seqc
