@@ -65,6 +65,23 @@ TEST_F(MidiMonitorTest, TheManualsExamplesInOneStreamAndInTwo) {
     }
 }
 
+// A file without end must not be held until its end.
+TEST_F(MidiMonitorTest, NoiseIsToldInPieces) {
+    constexpr std::size_t kBytes = 1'000, kMostHeld = 64;
+    for (const Side side : {Side::both, Side::master, Side::motor}) {
+        std::size_t told = 0;
+        for (std::size_t heard = 1; heard <= kBytes; ++heard) {
+            hear("A", side);
+            for (const MonitorEvent& event : monitor->take())
+                told += event.sent.size() + event.received.size();
+            ASSERT_LE(heard - told, kMostHeld);
+        }
+        monitor->finish();
+        for (const MonitorEvent& event : monitor->take()) told += event.sent.size() + event.received.size();
+        EXPECT_EQ(told, kBytes) << "no byte is lost";
+    }
+}
+
 TEST_F(MidiMonitorTest, EveryOtherAnswer) {
     hear(kRun + "\x15");
     hear(kRun + "\x06\x13\x17");

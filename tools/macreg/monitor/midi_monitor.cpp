@@ -20,6 +20,8 @@ using Kind = v24::Answer::Kind;
 /// Request, Ack, Xoff, reply, Xon.
 constexpr std::size_t kExchangeBytes = v24::RequestBytes{}.size() + 3 + v24::ReplyBytes{}.size();
 
+constexpr std::size_t kLongestNoise = 64;  // a line's worth
+
 midi_client::Request request_of(const v24::Request& heard) {
     const bool query = v24::is_query(heard.index);
     return {.address = heard.address,
@@ -110,14 +112,17 @@ class MidiMonitor final : public Monitor {
     }
 
     void release(bool both) {
-        for (const std::uint8_t byte : std::exchange(held_, {}))
+        for (const std::uint8_t byte : std::exchange(held_, {})) {
             both ? from_module(byte) : unsent_.push_back(byte);
+            if (unsent_.size() >= kLongestNoise) tell_noise();
+        }
     }
 
     void from_module(std::uint8_t byte) {
         received_.push_back(byte);
         const v24::Answer answer = answers_.receive(byte);
         if (answer.kind != Kind::none && asked_) end_exchange(answer);
+        if (!asked_ && received_.size() >= kLongestNoise) tell_noise();
     }
 
     void end_exchange(const v24::Answer& answer) {
