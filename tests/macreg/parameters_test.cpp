@@ -74,6 +74,9 @@ TEST(Parameters, EveryProblemOfAFileIsToldWithItsLine) {
     }
     EXPECT_EQ(parse_parameters("").problems.size(), 1U) << "not that it holds no register, too";
     EXPECT_EQ(parse_parameters(head + "V_SOL = 5\n").problems.size(), 1U);
+    std::string wrong;
+    for (int i = 0; i < 10'000; ++i) wrong += "V_SOL" + std::to_string(i) + " = 5\n";
+    EXPECT_EQ(parse_parameters(head + wrong).problems.size(), 101U) << "a guess for each would take long";
     EXPECT_EQ(parse_parameters(head + "A = 1\nB = 2\nV_SOLL = x\nT_SOLL = 5\n").problems.size(), 3U);
 }
 

@@ -20,6 +20,7 @@ using spelling::trimmed;
 
 namespace {
 
+constexpr std::size_t kMostProblems = 100;
 constexpr std::uint32_t kAll = ~std::uint32_t{0};
 
 /// Registers that are writable, but that the motor itself counts, shows or sets, or that act at once.
@@ -222,6 +223,10 @@ std::string incomplete_text(std::string_view why) {
 ParsedFile parse_parameters(std::string_view text) {
     Parser parser;
     while (!text.empty()) {
+        if (parser.file.problems.size() == kMostProblems) {
+            parser.problem("and more: is this a file of macreg dump?");
+            return parser.file;
+        }
         const auto end = std::min(text.find('\n'), text.size());
         ++parser.line;
         parser.read_line(text.substr(0, end));
