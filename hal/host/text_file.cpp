@@ -6,7 +6,6 @@ namespace nplc::host {
 namespace {
 
 constexpr std::string_view kMark = "\xEF\xBB\xBF";
-constexpr const char* kUtf16 = "it is text in UTF-16; save it as UTF-8";
 constexpr const char* kZeros = "it is no text, for it holds zeros";
 constexpr char kEndOfText = 0x1A;
 
@@ -25,8 +24,33 @@ bool is_unmarked_utf16(std::string_view bytes) {
             (is_letter_and_zero(bytes[1], bytes[0]) && is_letter_and_zero(bytes[3], bytes[2])));
 }
 
+/// The 16-bit unit at `at`, which is even.
+unsigned unit_at(std::string_view bytes, std::size_t at, bool big_end_first) {
+    const auto first = static_cast<unsigned char>(bytes[at]);
+    const auto second = static_cast<unsigned char>(bytes[at + 1]);
+    return big_end_first ? first * 0x100U + second : second * 0x100U + first;
+}
+
+/// Whether all units are of a text, with ASCII among them if wanted. Tables have units of zeros.
+bool is_utf16_of(std::string_view bytes, bool big_end_first, bool wants_ascii) {
+    constexpr std::size_t kShare = 8;
+    if (bytes.empty() || bytes.size() % 2 != 0) return false;
+    std::size_t ascii = 0;
+    bool in_pair = false;
+    for (std::size_t at = 0; at < bytes.size(); at += 2) {
+        const unsigned unit = unit_at(bytes, at, big_end_first);
+        const bool is_second_of_two = unit >= 0xDC00 && unit < 0xE000;
+        const bool is_sign = unit >= ' ' && unit != 0x7F && unit < 0xFFFE;
+        const bool is_blank = unit == '\t' || unit == '\n' || unit == '\r' || unit == '\f';
+        if (is_second_of_two != in_pair || (!is_sign && !is_blank)) return false;
+        in_pair = unit >= 0xD800 && unit < 0xDC00;
+        if (unit < 0x80) ++ascii;
+    }
+    return !in_pair && (!wants_ascii || ascii * kShare >= bytes.size() / 2);
+}
+
 std::string why_no_text(std::string_view bytes) {
-    if (has_utf16_mark(bytes) || is_unmarked_utf16(bytes)) return kUtf16;
+    if (has_utf16_mark(bytes) || is_unmarked_utf16(bytes)) return kUtf16Problem;
     return bytes.find('\0') == bytes.npos ? "" : kZeros;
 }
 
@@ -47,10 +71,15 @@ void end_lines_with_lf(std::string& text) {
 
 }  // namespace
 
-bool is_marked_utf16(std::string_view bytes) {
-    if (!has_utf16_mark(bytes)) return false;
-    const std::string_view text = bytes.substr(2, 2);
-    return text.size() == 2 && (is_letter_and_zero(text[0], text[1]) || is_letter_and_zero(text[1], text[0]));
+bool is_utf16_text(std::string_view bytes) {
+    constexpr std::size_t kShortest = 8;
+    if (!has_utf16_mark(bytes))
+        return bytes.size() >= kShortest &&
+               (is_utf16_of(bytes, false, true) || is_utf16_of(bytes, true, true));
+    const std::string_view text = bytes.substr(2);
+    if (text.size() >= 2 && (is_letter_and_zero(text[0], text[1]) || is_letter_and_zero(text[1], text[0])))
+        return true;
+    return is_utf16_of(text, bytes.front() == '\xFE', false);
 }
 
 std::string make_text(std::string& bytes) {

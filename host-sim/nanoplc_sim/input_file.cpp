@@ -10,6 +10,7 @@
 #include <span>
 
 #include "host/files.h"
+#include "host/printable.h"
 #include "host/text_file.h"
 #include "intel_hex/intel_hex.h"
 #include "sequencer/table.h"
@@ -67,7 +68,7 @@ std::vector<std::uint8_t> bytes_of(const std::string& content, const std::string
     intel_hex::Image image = intel_hex::bytes_in(path, content);
     if (image.error.empty()) return std::move(image.bytes);
     if (image.is_text) {
-        const bool is_utf16 = host::is_marked_utf16(content);
+        const bool is_utf16 = host::is_utf16_text(content);
         throw InputError(fmt::format("{}: {}, not a raw table; {}", path,
                                      is_utf16 ? "text in UTF-16" : "text", advice_for_text(path)));
     }
@@ -75,13 +76,14 @@ std::vector<std::uint8_t> bytes_of(const std::string& content, const std::string
                                  image.line == 0 ? "" : fmt::format(":{}", image.line), image.error));
 }
 
-/// A table that begins with a byte such as '?' or FFh ends at once.
-void refuse_empty(std::span<const std::uint8_t> bytes, const std::string& path) {
+/// A table that begins with a byte such as '?' or FFh ends at once: erased memory, or another file.
+void check_empty(std::span<const std::uint8_t> bytes, const std::string& path) {
     const auto rest = bytes.subspan(std::min(bytes.size(), sequencer::kTermBytes));
     const auto is_all = [&](std::uint8_t value) {
         return std::all_of(rest.begin(), rest.end(), [&](std::uint8_t byte) { return byte == value; });
     };
-    if (is_all(0xFF) || is_all(0)) return;
+    if (is_all(0xFF) || is_all(0))
+        return host::complain(fmt::format("{}: the table is empty: nothing will happen", path));
     throw InputError(
         fmt::format("{}: no term of a table, and {} bytes behind its end: this is another file; name a table "
                     "as `seqc build` writes it",
@@ -118,7 +120,7 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     if (content.empty()) refuse(path, what, "the file is empty");
     std::vector<std::uint8_t> bytes = bytes_of(content, path);
     check_table(bytes, path);
-    if (sequencer::Table::load(bytes).table.empty()) refuse_empty(bytes, path);
+    if (sequencer::Table::load(bytes).table.empty()) check_empty(bytes, path);
     return bytes;
 }
 

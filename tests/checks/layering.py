@@ -107,7 +107,7 @@ MODULES = [
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
     Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
     Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client", "registers")),
-    Module("tools/uploads", "uploads", ("base", "command_line", "digest", "intel_hex", "proof", "registers", "seqc", "sequencer", "set_points", "whole_files")),
+    Module("tools/uploads", "uploads", ("base", "command_line", "digest", "host", "intel_hex", "proof", "registers", "seqc", "sequencer", "set_points", "whole_files")),
     Module("tools/nanofleet", "nanofleet", ("arguments", "base", "broker", "command_line", "host", "orders", "set_points", "toml_files", "uploads", "whole_files"),
            os=True),
     Module(

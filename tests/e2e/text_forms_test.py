@@ -110,13 +110,24 @@ class TextForms(FolderCase):
                         self.assertIn(b"UTF-16", said)
 
     def test_text_under_a_tables_name(self):
-        for content in ("PROGRAM P", "PROGRAM P".encode("utf-16")):
+        # A table would end at '?', whose code is 63.
+        for content in ("PROGRAM P", "PROGRAM P".encode("utf-16"), "?ROGRAM P".encode("utf-16-le"), "?ROGRAM P".encode("utf-16-be"),
+                        "?\u4e2d\u6587\n".encode("utf-16-le") * 4, "?\u4e2d\u6587\n".encode("utf-16-be") * 4, "\u4e2d\u6587\n".encode("utf-16")):
             for command in (("seqc", "disasm"), ("nanoplc-sim", "run")):
                 with self.subTest(f"{command} {content}"):
                     code, _, said = self.outcome("x.bin", content, lambda file, command=command: (*command, file))
                     self.assertEqual(code, 2)
                     self.assertIn(b"text in UTF-16" if isinstance(content, bytes) else b"text", said)
                     self.assertIn(b".seq", said)
+
+    def test_an_empty_table_is_told(self):
+        """By the manual STATE 63 ends a table; bits 7 and 6 and what follows do not matter."""
+        for content in (b"\x3f" + 7 * b"\0", 8 * b"\xff", b"\xff\xfe" + 6 * b"\0"):
+            for command in (("seqc", "disasm"), ("seqc", "verify"), ("nanoplc-sim", "run", "--for", "100ms")):
+                with self.subTest(f"{command} {content}"):
+                    code, _, said = self.outcome("x.bin", content, lambda file, command=command: (*command, file))
+                    self.assertEqual(code, 0)
+                    self.assertIn(b"x.bin: the table is empty: nothing will happen", said)
 
     def test_fmt_takes_a_mark_and_cr_lf_away(self):
         file = self.path("p.seq")

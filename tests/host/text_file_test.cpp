@@ -42,12 +42,30 @@ TEST(TextFile, Utf16IsNamedWithAndWithoutItsMark) {
     EXPECT_EQ(text_in(std::string("\0", 1)), "refused: it is no text, for it holds zeros");
 }
 
+// U+4E2D U+6587, with and without words between.
+TEST(TextFile, Utf16OfAnyScriptIsKnown) {
+    for (const bool big : {false, true}) {
+        const std::string chinese = big ? "\x4E\x2D\x65\x87" : "\x2D\x4E\x87\x65";
+        EXPECT_TRUE(is_utf16_text((big ? "\xFE\xFF" : "\xFF\xFE") + chinese));
+        EXPECT_TRUE(is_utf16_text(chinese + chinese + chinese + utf16("\r\n", big)));
+        EXPECT_TRUE(is_utf16_text(utf16("?ROGRAM", big) + chinese + utf16("\n", big)));
+        EXPECT_FALSE(is_utf16_text(utf16("PROGRAM", big) + std::string(2, '\0'))) << "a zero is no character";
+        EXPECT_FALSE(is_utf16_text(utf16("PROGRAM", big) + "\xFF\xFF"));
+        EXPECT_FALSE(is_utf16_text(utf16("PROGRAM", big) + (big ? "\xDC\x01" : "\x01\xDC")))
+            << "the second half of a pair alone";
+    }
+    EXPECT_FALSE(is_utf16_text("PROGRAM P")) << "no zeros";
+    // One term as the manual has it, and the end: STATE 1, the timer 0.
+    EXPECT_FALSE(
+        is_utf16_text(std::string("\xC0\x01\x01\x02\x41\x01\0\0\x3F\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 16)));
+}
+
 TEST(TextFile, ATableThatBeginsAsTheMarkDoesIsNoText) {
-    EXPECT_TRUE(is_marked_utf16("\xFF\xFE" + utf16("a", false)));
-    EXPECT_TRUE(is_marked_utf16("\xFE\xFF" + utf16("a", true)));
+    EXPECT_TRUE(is_utf16_text("\xFF\xFE" + utf16("a", false)));
+    EXPECT_TRUE(is_utf16_text("\xFE\xFF" + utf16("a", true)));
     for (const std::string& bytes : {std::string(), std::string("\xFF\xFE"),
                                      std::string("\xFF\xFE\0\0\0\0\0\0", 8), std::string(8, '\xFF')})
-        EXPECT_FALSE(is_marked_utf16(bytes));
+        EXPECT_FALSE(is_utf16_text(bytes));
 }
 
 /// What a text is in lines, in whichever blocks it comes.

@@ -160,12 +160,15 @@ TEST(FileOfBytes, HoldsThemRawOrAsIntelHex) {
 
 TEST(FileOfBytes, TextOfAnotherKindIsRefused) {
     const std::string utf16("\xFF\xFEP\0R\0", 6);
-    for (const std::string& text : {std::string("PROGRAM P"), std::string("T\xC3\xA4glich\r\n"), utf16}) {
+    const std::string chinese("?\0\x2D\x4E\x87\x65\x2D\x4E\n\0", 10);  // a table would end at the '?'
+    for (const std::string& text :
+         {std::string("PROGRAM P"), std::string("T\xC3\xA4glich\r\n"), utf16, chinese}) {
         const Image image = bytes_in("F.bin", text);
         EXPECT_TRUE(image.is_text);
         EXPECT_NE(image.error, "");
         EXPECT_EQ(image.line, 0U);
     }
+    EXPECT_EQ(bytes_in("F.bin", chinese).error, "it is text in UTF-16; save it as UTF-8");
     EXPECT_EQ(bytes_in("F.hex", utf16).error, "it is text in UTF-16; save it as UTF-8");
     EXPECT_EQ(bytes_in("F.hex", "PROGRAM P").line, 1U);
 }

@@ -39,7 +39,7 @@ int digit(char c) {
 
 /// Raw content has zeros, or bytes that no text has.
 bool is_other_text(std::string_view content) {
-    if (host::is_marked_utf16(content)) return true;
+    if (host::is_utf16_text(content)) return true;
     const auto is_of_text = [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte == '\t' || byte == '\r' || byte == '\n' || byte == 0x1A || (byte >= ' ' && byte != 0x7F);
@@ -191,7 +191,7 @@ Image bytes_in(std::string_view file_name, std::string content) {
         image.bytes.assign(content.begin(), content.end());
         return image;
     }
-    image.error = host::make_text(content);
+    image.error = host::is_utf16_text(content) ? host::kUtf16Problem : host::make_text(content);
     if (image.error.empty() && is_hex) return read(content);
     if (image.error.empty()) image.error = "it is text, neither raw bytes nor Intel HEX";
     return image;

@@ -6,6 +6,7 @@
 
 #include "command_line/files.h"
 #include "command_line/program.h"
+#include "host/printable.h"
 #include "intel_hex/intel_hex.h"
 #include "registers/gateway.h"
 #include "seqc/symbol_file.h"
@@ -33,6 +34,8 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
             fmt::format("{}: term {} ends the table and {} bytes follow it; this is no table of "
                         "seqc build, build it anew",
                         path, loaded.table.size(), table.size() - whole));
+    if (loaded.table.empty())
+        host::complain(fmt::format("{}: the table is empty: nothing will happen", path));
     return table;
 }
 

@@ -69,6 +69,8 @@ void read_table_into(Input& input, const std::string& text, bool is_whole) {
                                    bytes.size() - length));
         bytes.resize(length);
     }
+    if (length == kTermBytes)
+        host::complain(fmt::format("seqc: {}: the table is empty: nothing will happen", input.file));
     input.table = std::move(bytes);
 }
 

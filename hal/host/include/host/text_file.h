@@ -9,8 +9,11 @@
 
 namespace nplc::host {
 
-/// Whether it begins with a UTF-16 byte order mark and an ASCII letter, which a raw table never does.
-bool is_marked_utf16(std::string_view bytes);
+/// Whether it is text in UTF-16, with a byte order mark or without: all of it is characters, and without the
+/// mark one in eight is ASCII. A raw table has zeros or FFs where a text has no character.
+bool is_utf16_text(std::string_view bytes);
+/// What is said of such a file.
+inline constexpr const char* kUtf16Problem = "it is text in UTF-16; save it as UTF-8";
 
 /// Normalizes a file's bytes to text, whichever editor wrote it: removes a byte order mark and a final 1Ah
 /// (end of a DOS file), and ends lines with LF, also where CR alone ends all of them. Returns why it is not
