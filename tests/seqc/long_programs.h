@@ -115,11 +115,6 @@ inline std::vector<Long> long_programs(int count) {
                     "() STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP END_SEQUENCE\n";
          })),
          "W005"},
-        {"calls",
-         at_top("SEQUENCE Q(CONST C) STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP "
-                "END_SEQUENCE STEP T: OWN ERROR; " +
-                many([](int i) { return "IF IN0 THEN CALL Q(" + text_of(i) + "); NEXT := S; END_IF\n"; }) +
-                "END_STEP")},
         {"unknown sequences",
          at_top("SEQUENCE Q() STEP A: OWN ERROR; IF IN0 THEN RETURN; END_IF END_STEP END_SEQUENCE STEP T: "
                 "OWN ERROR; " +
