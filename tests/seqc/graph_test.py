@@ -166,6 +166,104 @@ def random_program(chance, steps):
     return "\n".join(text)
 
 
+INPUTS = ["Go", "Door", "Part", "Up", "Ack", "Key"]
+BITS = [*INPUTS, "INPOS", "ERROR", "TIMER.Q", "COUNTER.Q"]
+ALL = (1 << (1 << len(BITS))) - 1
+
+
+def bit_mask(bit):
+    """The cases, one bit each, in which a bit of the input image or a zero flag is 1."""
+    return sum(1 << case for case in range(1 << len(BITS)) if case >> bit & 1)
+
+
+MASKS = {name: bit_mask(bit) for bit, name in enumerate(BITS)} | {f"IN{bit}": bit_mask(bit) for bit in range(len(INPUTS))}
+NO_ERROR = ALL & ~MASKS["ERROR"]
+
+
+def random_condition(chance):
+    terms = [" AND ".join(chance.choice(["", "NOT "]) + name for name in chance.sample(BITS[:7] + BITS[8:], chance.randrange(1, 3)))
+             for _ in range(chance.choice([1, 1, 2]))]
+    return " OR ".join(terms)
+
+
+def branching_program(chance, steps):
+    """Branches that go on, stay or do nothing, in one IF or two; ON conditions for all steps or some."""
+    text = [f"PROGRAM Branching_{steps}", "MOTOR MAC140;",
+            "VAR_INPUT " + " ".join(f"{name} AT IN{i};" for i, name in enumerate(INPUTS)) + " END_VAR", "ON ERROR NEXT := Fault;"]
+    work = [f"Work_{n}" for n in range(steps)]
+    for _ in range(chance.randrange(3)):
+        where = chance.choice(["", f"IN {', '.join(chance.sample(work, 2))}", f"EXCEPT {', '.join(chance.sample([*work, 'Fault'], 2))}"])
+        text.append(f"ON {random_condition(chance)} {where} NEXT := {chance.choice([*work, 'Fault'])};")
+    text.append("POWER_UP NEXT := Work_0; END_POWER_UP")
+    for name in work:
+        others = [other for other in [*work, "Fault"] if other != name]
+        act = lambda: chance.choice(["", "", f"NEXT := {chance.choice(others)};", f"NEXT := {chance.choice(others)};",
+                                     f"POSITION(P2); NEXT := {chance.choice(others)};", "EVERY_SCAN COUNT_DOWN;"])
+        body = ""
+        for _ in range(chance.choice([1, 1, 1, 2])):
+            body += f"IF {random_condition(chance)} THEN {act()} "
+            for _ in range(chance.randrange(3)):
+                body += f"ELSIF {random_condition(chance)} THEN {act()} "
+            body += chance.choice(["", f"ELSE {act()} "]) + "END_IF "
+        text.append(f"STEP {name}: {chance.choice(['', 'ENTRY TIMER := T#1s;'])} {body}END_STEP")
+    text += ["STEP Fault: OWN ERROR; IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP", "END_PROGRAM", ""]
+    return "\n".join(text)
+
+
+def cases_of(condition):
+    """As one reads it: a condition that does not name ERROR is one without ERROR."""
+    if condition in ("ELSE", "always"):
+        return NO_ERROR
+    names = condition.replace("ANY ERROR", "ANY_ERROR")
+    symbols = {"AND": "&", "OR": "|", "XOR": "^", "NOT": "~", "ANY_ERROR": str(ALL)} | {name: str(mask) for name, mask in MASKS.items()}
+    cases = eval(re.sub(r"[A-Za-z][\w.]*", lambda word: symbols[word[0]], names)) & ALL
+    return cases if "ERROR" in condition else cases & NO_ERROR
+
+
+def is_note_for(where, node, target, fault):
+    """`where` as it is drawn: "in every other step but A", "in A, B", "in steps 1, 3 to 5", and as the program has it "IN A, B" or
+    "EXCEPT A", which are about its own steps, the latter but for the fault step."""
+    own = {node["name"], *map(str, node["steps"])}
+    names = set(re.findall(r"\w+", where.split(" but ")[-1])) - {"in", "every", "other", "step", "steps", "IN", "EXCEPT", "to"}
+    for first, last in re.findall(r"(\d+) to (\d+)", where):
+        names |= {str(n) for n in range(int(first), int(last) + 1)}
+    if where.startswith("EXCEPT") and (node["kind"] == "helper" or node["step"] == fault):
+        return False
+    if where.startswith(("in every other step", "EXCEPT")):
+        return node["step"] != target and not own & names
+    return bool(own & names)
+
+
+def fault_of(drawing):
+    """Where the note of ERROR stands."""
+    return next((node["step"] for node in drawing["nodes"] if node["kind"] == "note" and node["ways"][0]["condition"] == "ERROR"), None)
+
+
+def transitions(drawing, behind=None):
+    """For each step the cases in which the drawing, read from top to bottom, allows to go to each other one. `behind`: where helper
+    steps lead to, which are left out on the way."""
+    behind = behind or {}
+    fault = fault_of(drawing)
+    notes = [way for node in drawing["nodes"] if node["kind"] == "note" for way in node["ways"]]
+    read = {}
+    for node in drawing["nodes"]:
+        if node["kind"] == "note":
+            continue
+        step, to, told = node["step"], {}, 0
+        for note in notes:
+            first = note["condition"] == "ERROR" or step != 0
+            if first and note["to"] != step and is_note_for(note["where"], node, note["to"], fault):
+                to[note["to"]] = to.get(note["to"], 0) | cases_of(note["condition"])
+                told |= cases_of(note["condition"])
+        for way in node["ways"]:
+            target, cases = behind.get(way["to"], way["to"]), cases_of(way["condition"]) & ~told
+            to[target] = to.get(target, 0) | cases
+            told |= cases
+        to[step] = to.get(step, 0) | ALL & ~told
+        read[step] = to
+    return read
+
+
 class Graph(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -284,6 +382,80 @@ class Graph(unittest.TestCase):
             source = random_program(chance, chance.randrange(2, 24))
             with self.subTest(seed=SEED, number=number):
                 self.check_ways(self.check(self.write("random.seq", source)))
+
+    def table_of(self, program):
+        table = self.write("table.bin", "")
+        done = subprocess.run([SEQC, "build", program, "-o", table, "--quiet"], capture_output=True, check=False)
+        table.with_suffix(".sym").unlink(missing_ok=True)
+        return table if done.returncode == 0 else None
+
+    def check_transitions(self, program):
+        """A program and its table are drawn as the same machine, as far as one step of the one is one of the other."""
+        table = self.table_of(program)
+        if table is None:
+            return False
+        drawing = graph(program)
+        behind = {node["step"]: node["ways"][0]["to"] for node in drawing["nodes"] if node["kind"] == "helper"}
+        drawn, wanted = transitions(drawing), transitions(graph(table), behind)
+        self.assertEqual(drawn.keys(), wanted.keys())
+        for step, to in drawn.items():
+            same = 0
+            for target, cases in to.items():
+                same |= cases & wanted[step].get(target, 0)
+            self.assertEqual(same, ALL, f"step {step} of\n{program.read_text()}")
+        return True
+
+    def test_a_branch_that_does_nothing_keeps_those_behind_it_from_acting(self):
+        source = ("PROGRAM P MOTOR MAC140; VAR_INPUT Door AT IN1; Go AT IN0; END_VAR STEP Wait: OWN ERROR; {} END_STEP\n"
+                  "STEP C: OWN ERROR; END_STEP STEP D: OWN ERROR; END_STEP END_PROGRAM\n")
+        for branches, drawn in (
+                ("IF NOT Door THEN ; ELSE NEXT := C; END_IF", [("NOT Door", 1), ("ELSE", 2)]),
+                ("IF Go THEN NEXT := D; ELSIF NOT Door THEN ; ELSE NEXT := C; END_IF", [("Go", 3), ("NOT Door", 1), ("ELSE", 2)]),
+                ("IF Go THEN NEXT := D; ELSIF NOT Door THEN ; END_IF", [("Go", 3)]),
+                ("IF Go THEN NEXT := D; ELSE ; END_IF", [("Go", 3)]),
+                # the empty branch of one IF is none for the next
+                ("IF Go THEN ; ELSIF Door THEN NEXT := C; END_IF IF Go AND Door THEN NEXT := D; END_IF",
+                 [("NOT Go AND Door", 2), ("Go AND Door", 3)])):
+            with self.subTest(branches):
+                program = self.write("wait.seq", source.format(branches))
+                wait = next(node for node in self.check(program)["nodes"] if node.get("name") == "Wait")
+                self.assertEqual([(way["condition"], way["to"]) for way in wait["ways"]], drawn)
+                self.assertTrue(self.check_transitions(program))
+                dot = run(program, "--format", "dot").decode()
+                texts = [text["text"] for text in wait["texts"]]
+                self.assertEqual("NOT Door" in texts and "stays" in texts, ("NOT Door", 1) in drawn)
+                self.assertEqual("stays" in dot, ("NOT Door", 1) in drawn)
+
+    def test_a_program_is_drawn_as_the_machine_that_its_table_is(self):
+        chance = random.Random(SEED)
+        compared = 0
+        for number in range(80):
+            source = branching_program(chance, chance.randrange(2, 7))
+            with self.subTest(seed=SEED, number=number):
+                compared += self.check_transitions(self.write("branching.seq", source))
+        self.assertGreaterEqual(compared, 30)
+
+    def test_a_box_leads_where_the_steps_of_it_lead(self):
+        """With copies, whose conditions on edges and times no table can tell."""
+        chance = random.Random(SEED)
+        for number in range(12):
+            program = self.write("random.seq", random_program(chance, chance.randrange(2, 12)))
+            with self.subTest(seed=SEED, number=number):
+                drawing = graph(program)
+                box_of = {step: node["step"] for node in drawing["nodes"] if node["kind"] != "note" for step in node["steps"]}
+                def ways_of(read):
+                    return {(box_of[step], box_of[to]) for step, targets in read.items() for to, cases in targets.items()
+                            if cases and box_of[step] != box_of[to]}
+                known = {node["step"]: {way.get("by", way["to"]) for way in node["ways"]} for node in drawing["nodes"] if node["kind"] != "note"}
+                fault = fault_of(drawing)
+                for node in drawing["nodes"]:
+                    for note in node["ways"] if node["kind"] == "note" else []:
+                        for other in drawing["nodes"]:
+                            if other["kind"] != "note" and is_note_for(note["where"], other, note["to"], fault):
+                                known[other["step"]].add(note["to"])
+                drawn = {(step, box_of[to]) for step, targets in known.items() for to in targets if box_of[to] != step}
+                self.assertEqual(drawn - {(0, to) for to in box_of.values()},
+                                 ways_of(transitions(graph(self.table_of(program)))) - {(0, to) for to in box_of.values()})
 
     def test_title_motor_and_terminals_stand_apart(self):
         source = ("PROGRAM Bag_Sealer MOTOR MAC140; VAR_INPUT Pedal AT IN0; Shut AT IN3; END_VAR VAR_OUTPUT Jaws AT OUT1; END_VAR\n"

@@ -243,16 +243,20 @@ class Checker {
         plan.memory = memories_[plan.number];
         const std::size_t states = plan.memory.states();
         plan.rules_in.resize(states);
+        plan.idle_in.resize(states);
         for (std::size_t state = states; state-- > 0;) {
             memory_ = &plan.memory;
             state_ = state;
             scope_.see_edges(&plan.memory.edges, state);
             plan.rules.clear();
+            plan.idle.clear();
             add_choices(written, plan);
             add_fault_rule(written, plan);
             plan.rules_in[state] = plan.rules;
+            plan.idle_in[state] = plan.idle;
         }
         plan.rules = plan.rules_in.back();
+        plan.idle = plan.idle_in.back();
         scope_.see_edges(nullptr, 0);
     }
 
@@ -390,7 +394,7 @@ class Checker {
         if (rule.when.none()) return;
         on.may_act = true;
         check_error_covered(place, rule, plan);
-        add_rule(std::move(rule), place, choice, plan, seen);
+        add_rule(std::move(rule), on.when, place, choice, plan, seen);
     }
 
     /// Reports an ON condition that has no effect in any step, although it can be true.
@@ -429,10 +433,12 @@ class Checker {
             taken |= own;
             before.push_back({own, {}, rule.condition});
             if (is_never_taken(branch, condition_sound, rule.when, own, before)) warn_never(branch);
-            if (rule.when.any() && !rule.action.is_empty()) {
+            if (rule.when.any() && rule.action.is_empty()) {
+                plan.idle.push_back({rule.when, {}, rule.condition, own});
+            } else if (rule.when.any()) {
                 check_error_covered(place_of(branch), rule, plan);
                 const Span place = branch.condition ? rule.condition : rule.action.span;
-                add_rule(std::move(rule), place, index, plan, seen);
+                add_rule(std::move(rule), own, place, index, plan, seen);
             }
         }
     }
@@ -537,7 +543,8 @@ class Checker {
     }
 
     /// Branches with the same effect become one rule.
-    void add_rule(Rule rule, Span place, std::size_t choice, StepPlan& plan, SeenBranches& seen) {
+    void add_rule(Rule rule, const Truth& own, Span place, std::size_t choice, StepPlan& plan,
+                  SeenBranches& seen) {
         if (report_.full_of_errors()) return;
         const auto same = std::find_if(plan.rules.begin(), plan.rules.end(), [&](const Rule& earlier) {
             return earlier.action.same_effect(rule.action);
@@ -546,7 +553,7 @@ class Checker {
         const bool is_said = state_ + 1 != memory_->states() && report_.has("E070", place);
         if (seen.claim(rule.when, number) && !is_said) report_contested(rule, place, choice, number, seen);
         seen.list.push_back({rule.when, rule.condition, choice, number});
-        RulePart part{rule.when, rule.action, rule.condition};
+        RulePart part{rule.when, rule.action, rule.condition, own};
         if (same == plan.rules.end()) {
             plan.rules.push_back(std::move(rule));
             plan.rules.back().parts.push_back(std::move(part));

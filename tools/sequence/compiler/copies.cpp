@@ -255,6 +255,8 @@ class Copies {
         made.is_copy = made.number != from.number;
         made.outputs = plain_outputs(key);
         made.rules_in.clear();
+        if (!from.idle_in.empty()) made.idle = from.idle_in[from.memory.state_of(key.memory, key.half)];
+        made.idle_in.clear();
         made.rules.clear();
         for (const auto& [outcome, cases] : outcomes(key)) {
             if (outcome.rule == kNobody && outcome.stays) continue;

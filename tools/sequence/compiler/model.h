@@ -72,6 +72,7 @@ struct RulePart {
     Truth when;
     Action action;
     Span condition = {};
+    Truth own = {};  ///< of the condition alone, whatever stands before it
 };
 
 /// The rules of one step are mutually exclusive.
@@ -118,8 +119,10 @@ struct StepPlan {
     std::vector<Span> entry;  ///< the statements of ENTRY
     std::vector<ConditionalOutput> conditional;
     std::vector<Rule> rules;
+    std::vector<RulePart> idle;  ///< branches that do nothing, but keep those behind them from acting
     Memory memory;
-    std::vector<std::vector<Rule>> rules_in;  ///< by the state of `memory`; until the copies are generated
+    std::vector<std::vector<Rule>> rules_in;     ///< by the state of `memory`; until the copies are generated
+    std::vector<std::vector<RulePart>> idle_in;  ///< likewise
     std::vector<RawTerm> terms;
 };
 

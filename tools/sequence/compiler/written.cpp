@@ -9,8 +9,9 @@
 namespace nplc::seqc {
 namespace {
 
-Written::Branch branch_of(const Truth& when, const Action& action, Span condition) {
+Written::Branch branch_of(const Truth& when, const Truth& own, const Action& action, Span condition) {
     return {.when = when,
+            .own = own,
             .condition = condition,
             .statements = action.statements,
             .next = action.next,
@@ -20,11 +21,12 @@ Written::Branch branch_of(const Truth& when, const Action& action, Span conditio
 void add_branches(const StepPlan& step, const Rule& rule, std::vector<Written::Branch>& branches) {
     if (rule.is_made) return;
     if (rule.parts.empty()) {
-        branches.push_back(branch_of(rule.when, rule.action, step.is_helper ? Span{} : rule.condition));
+        branches.push_back(
+            branch_of(rule.when, rule.when, rule.action, step.is_helper ? Span{} : rule.condition));
         return;
     }
     for (const RulePart& part : rule.parts) {
-        branches.push_back(branch_of(part.when, part.action, part.condition));
+        branches.push_back(branch_of(part.when, part.own, part.action, part.condition));
         if (part.action.next != rule.action.next) branches.back().by_helper = rule.action.next;
     }
 }
@@ -48,6 +50,10 @@ Written::Step step_of(const StepPlan& plan) {
                        .outputs = {},
                        .blinking = plan.memory.blinking};
     for (const Rule& rule : plan.rules) add_branches(plan, rule, step.branches);
+    for (const RulePart& part : plan.idle) {
+        step.branches.push_back(branch_of(part.when, part.own, part.action, part.condition));
+        step.branches.back().is_idle = true;
+    }
     for (const ConditionalOutput& output : plan.conditional) {
         if (output.condition.length != 0)
             step.outputs.push_back({output.outputs, output.when, output.condition});

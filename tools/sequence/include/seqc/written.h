@@ -16,10 +16,12 @@ struct Written {
 
     struct Branch {
         Cases when;                             ///< without the cases taken by earlier branches
+        Cases own;                              ///< of the condition alone, whatever stands before it
         Span condition;                         ///< length 0: no condition in the program
         std::vector<Span> statements;           ///< without NEXT, in program order
         std::optional<std::uint8_t> next;       ///< as written in the program
         std::optional<std::uint8_t> by_helper;  ///< the step that the compiler inserted on the way there
+        bool is_idle = false;                   ///< does nothing, but keeps those behind it from acting
     };
     struct Output {
         std::uint8_t outputs = 0;  ///< bits 3..0

@@ -125,13 +125,15 @@ class Drawing {
     /// An outgoing transition has its target step next to it.
     std::string way_row(std::uint8_t step, const GraphModel::Way& way) const {
         const bool stays = way.to == step;
-        const std::string condition = stays ? "EVERY_SCAN, " + way.condition : way.condition;
+        const bool acts_on = stays && !way.actions.empty();
+        const std::string condition = acts_on ? "EVERY_SCAN, " + way.condition : way.condition;
         std::string content = lines(condition, way.on_error ? kErrorColour : "");
         if (!way.actions.empty()) content += lines("/ " + way.actions, kActionColour);
-        if (stays) return row(content);
+        if (acts_on) return row(content);
         const std::string by = way.by ? fmt::format(", by {}", *way.by) : "";
+        const std::string target = stays ? "\u00A0\u00A0stays" : to(way) + by;
         return fmt::format(R"(<TR><TD ALIGN="LEFT">{}</TD><TD ALIGN="RIGHT" VALIGN="TOP">{}</TD></TR>)",
-                           content, coloured(kTargetColour, to(way) + by));
+                           content, coloured(kTargetColour, target));
     }
 
     /// Blanks as distance to the preceding text.

@@ -116,6 +116,12 @@ std::string target_of(const GraphModel& model, const GraphModel::Way& way) {
     return "\u2192 " + name_of(model, way.to) + by;
 }
 
+/// Empty for a way that stays and does something in every scan.
+std::string target_in(const GraphModel& model, const GraphModel::Box& box, const GraphModel::Way& way) {
+    if (way.to != box.step) return target_of(model, way);
+    return way.actions.empty() ? "stays" : "";
+}
+
 /// `room`: width for a condition and its target.
 Card step_card(const GraphModel& model, const GraphModel::Box& box, std::size_t letters, double room) {
     CardWriter writer(fmt::format("s{}", box.step));
@@ -132,8 +138,7 @@ Card step_card(const GraphModel& model, const GraphModel::Box& box, std::size_t 
     for (const std::string& output : box.outputs) writer.lines(TextKind::output, output, letters);
     for (const std::string& entry : box.entry) writer.lines(TextKind::entry, entry, letters);
     if (!box.ways.empty()) writer.rule();
-    for (const GraphModel::Way& way : box.ways)
-        writer.way(way, way.to == box.step ? "" : target_of(model, way), letters, room);
+    for (const GraphModel::Way& way : box.ways) writer.way(way, target_in(model, box, way), letters, room);
     return writer.done();
 }
 

@@ -96,19 +96,39 @@ GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branc
                         .actions = text.statements(branch.statements),
                         .to = box_of(branch.next.value_or(step.number)),
                         .by = branch.by_helper};
+    const bool is_as_written = (branch.own & ~told) == (branch.when & ~told);
     if (branch.statements.empty() && branch.when == truth_of_bit(kErrorBit)) {
         way.condition = "ERROR";
-    } else if (leads_to_several(step, condition)) {
+    } else if (!is_as_written || leads_to_several(step, condition)) {
         way.condition = condition_text(branch.when & ~told, told, symbols_);
     }
     return way;
+}
+
+/// Whether a way behind a branch that does nothing would be read wrongly without it, and it is true itself in
+/// `reads`: no other IF of the step acts there, and no TERM.
+bool GraphWays::is_needed(const Written::Step& step, const Written::Branch& idle, const Truth& reads) const {
+    bool has_more = false;
+    for (const Written::Branch& other : step.branches) {
+        if (other.is_idle) continue;
+        if ((other.when & reads).any()) return false;
+        has_more = has_more || (&other > &idle && (other.own & reads).any());
+    }
+    for (std::size_t c = reads._Find_first(); c < kCases; c = reads._Find_next(c)) {
+        const table::Outcome& outcome = machine_.steps[step.number].in(c);
+        const bool stays =
+            outcome.next == step.number ? outcome.is_quiet() : box_of(outcome.next) == box_of(step.number);
+        if (!stays) return false;
+    }
+    return has_more;
 }
 
 /// A condition that the compiler split, so that its text does not identify one of the transitions.
 bool GraphWays::leads_to_several(const Written::Step& step, const std::string& condition) const {
     std::optional<std::uint8_t> first;
     for (const Written::Branch& branch : step.branches) {
-        if (!is_true(branch, step.number) || text_of(step).condition(branch) != condition) continue;
+        if (branch.is_idle || !is_true(branch, step.number) || text_of(step).condition(branch) != condition)
+            continue;
         const std::uint8_t to = box_of(branch.next.value_or(step.number));
         if (first.value_or(to) != to) return true;
         first = to;
@@ -150,8 +170,11 @@ std::vector<GraphWays::Way> GraphWays::ways_of(std::uint8_t step) const {
     };
     if (const Written::Step* written = written_step(step)) {
         for (const Written::Branch& branch : written->branches) {
-            if (!is_true(branch, step)) continue;
-            add(branch.when, shown(*written, branch, told), true, place_of(branch));
+            const Truth reads = branch.own & ~told;
+            const bool is_drawn = branch.is_idle ? is_needed(*written, branch, reads)
+                                                 : is_true(branch, step) && (branch.when & ~told).any();
+            if (!is_drawn) continue;
+            add(branch.is_idle ? reads : branch.when, shown(*written, branch, told), true, place_of(branch));
         }
     }
     for (const StepTransition& reaction : reactions_of(machine_, step)) {
