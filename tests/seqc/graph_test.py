@@ -23,6 +23,7 @@ SEED = 37
 MONOSPACED = 0.602  # of the font's size: the widest of usual fonts, for most texts
 RISE, FALL = 0.75, 0.22  # of the size: how far letters go above and below their line
 A4 = (595.3, 841.9)
+GRAPHVIZ_FOLD = 12
 SLACK = 0.02  # coordinates are rounded
 
 
@@ -282,6 +283,7 @@ class Graph(unittest.TestCase):
         self.check_texts(drawing)
         self.check_lines(drawing)
         self.check_page(drawing)
+        self.check_folds(drawing, draw(file))
         shown = [text["text"] for text in texts_in(drawing)]
         self.assertEqual(sorted(texts_of(draw(file))), sorted([drawing["program"], *(text.strip() for text in shown)]))
         return drawing
@@ -304,6 +306,20 @@ class Graph(unittest.TestCase):
                 for text in part["texts"]:
                     _, top, _, bottom = area_of(text)
                     self.assertFalse(top + SLACK < y < bottom - SLACK, (y, text))
+
+    def check_folds(self, drawing, svg):
+        """No text in the folded corner of a note, in the SVG and as Graphviz folds it."""
+        folds = {}
+        for group in svg.findall(f"{SVG}g"):
+            if "note" in group.get("class").split():
+                left, right = re.match(r"M\S+ H(\S+) L([^,]+),", group.find(f"{SVG}path").get("d")).groups()
+                folds[group.get("id")] = max(float(right) - float(left), GRAPHVIZ_FOLD)
+        for node in drawing["nodes"]:
+            if node["kind"] == "note":
+                _, top, right, _ = box_of(node)
+                fold = folds[node["id"]]
+                for text in node["texts"]:
+                    self.assertFalse(overlap(area_of(text), (right - fold, top, right, top + fold)), text)
 
     def check_lines(self, drawing):
         nodes = {node["id"]: node for node in drawing["nodes"]}

@@ -77,6 +77,9 @@ class CardWriter {
         way_.reset();
     }
 
+    /// The first line ends before the folded corner.
+    void make_room_for_fold() { take(card_.box.texts.front().width + kNoteFold - kCardPad); }
+
     Picture::Box& box() { return card_.box; }
     bool has_text() const { return !card_.box.texts.empty(); }
 
@@ -179,6 +182,7 @@ std::vector<Card> note_cards(const GraphModel& model, std::size_t letters) {
     std::vector<Card> cards;
     for (auto& [to, writer] : writers) {
         writer.line(TextKind::target, "\u2192 " + name_of(model, to));
+        writer.make_room_for_fold();
         writer.box().kind = Picture::BoxKind::note;
         writer.box().step = to;
         cards.push_back(writer.done());

@@ -75,6 +75,7 @@ struct Picture {
     std::vector<Line> lines;  ///< back to front
 };
 
+inline constexpr double kNoteFold = 12;     ///< of a note's upper right corner, as Graphviz folds it
 inline constexpr double kInnerFrame = 2.5;  ///< of POWER_UP, from its outer frame
 
 struct TextStyle {

@@ -11,7 +11,6 @@ namespace nplc::seqc {
 namespace {
 
 constexpr double kCorner = 4;
-constexpr double kFold = 8;  // of a note's corner
 
 std::string attributes(const Picture::Text& text) {
     const TextStyle style = style_of(text.kind);
@@ -36,8 +35,8 @@ std::string outline(const Picture::Box& box) {
         return fmt::format(
             "<path d=\"M{:.1f},{:.1f} H{:.1f} L{:.1f},{:.1f} V{:.1f} H{:.1f} Z\" fill=\"{}\" "
             "stroke=\"{}\"/>\n",
-            box.x, box.y, right - kFold, right, box.y + kFold, box.y + box.height, box.x, fill_of(box),
-            colour_of(box));
+            box.x, box.y, right - kNoteFold, right, box.y + kNoteFold, box.y + box.height, box.x,
+            fill_of(box), colour_of(box));
     }
     const auto rectangle = [&](double inset, std::string_view more) {
         return fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" stroke="{}"{}/>)"
