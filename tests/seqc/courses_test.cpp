@@ -73,6 +73,9 @@ TEST_F(Courses, AForgottenPresetIsFoundBehindATimer) {
             ms += scan.value("times", 1U) * scan["dt_ms"].get<unsigned>();
         EXPECT_GE(ms, 1500U);
     }
+    EXPECT_EQ(run("verify p.seq"), 0);
+    EXPECT_NE(read("out").find("Seal -> Cool"), std::string::npos) << read("out");
+    EXPECT_NE(read("out").find("here V007 shows"), std::string::npos) << read("out");
 }
 
 /// A lamp that shows the counter in a step that ends with the condition; Idle sets the counter.
@@ -318,6 +321,53 @@ TEST_F(Courses, ACourseIsWrittenAsATrace) {
     EXPECT_TRUE(
         trace.starts_with("time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n0,"))
         << trace;
+}
+
+/// V_SOLL is 0 from the STOP when Move is entered again.
+const char* const kStands =
+    "PROGRAM V\nMOTOR MAC140;\nVAR_INPUT Go AT IN0; Shut AT IN1; Ack AT IN2; END_VAR\n"
+    "VAR_MOTOR Fast AT V1 := 1000 rpm; Soft AT A1 := 1000 rpm/s; There AT P1 := 3 rev; END_VAR\n"
+    "ON ERROR NEXT := Fault; POWER_UP INIT(Fast, Soft); NEXT := Idle; END_POWER_UP\n"
+    "STEP Idle: IF Go THEN NEXT := Move; END_IF END_STEP\n"
+    "STEP Move: ENTRY POSITION(There); IF Shut THEN STOP; NEXT := Idle; END_IF END_STEP\n"
+    "STEP Fault: OWN ERROR; ENTRY STOP; IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := POWER_UP; END_IF "
+    "END_STEP\n";
+
+TEST_F(Courses, AFaultOfACheckIsWrittenAsACourseToo) {
+    write("p.seq", kStands + std::string("END_PROGRAM\n"));
+    write("s.csv", "old");
+    EXPECT_EQ(run("verify p.seq --stimulus s.csv --trace t.csv --scenario c.scn"), 1);
+    EXPECT_TRUE(read("s.csv").starts_with("dt_ms,inputs,inpos,error\n")) << read("s.csv");
+    EXPECT_TRUE(read("t.csv").starts_with("time_ms,step,")) << read("t.csv");
+    EXPECT_NE(read("c.scn").find("log \"here V011 shows\""), std::string::npos) << read("c.scn");
+    EXPECT_NE(read("out").find("c.scn"), std::string::npos) << read("out");
+    run("verify p.seq --scenario c.scn --json");
+    for (const Json& result : results()) {
+        if (result.value("code", "") != "V011") continue;
+        EXPECT_EQ(result["scenario"]["file"], "c.scn");
+    }
+}
+
+TEST_F(Courses, APropertyIsWrittenToTheNamedFileBeforeACheck) {
+    write("p.seq", kStands + std::string("PROPERTY Never_Moves: NEVER STEP = Move;\nEND_PROGRAM\n"));
+    EXPECT_EQ(run("verify p.seq --stimulus s.csv --scenario c.scn"), 1);
+    EXPECT_NE(read("c.scn").find("here Never_Moves breaks"), std::string::npos) << read("c.scn");
+    EXPECT_NE(read("c-MoveHasVelocity.Move.scn").find("here V011 shows"), std::string::npos);
+    EXPECT_TRUE(read("s-MoveHasVelocity.Move.csv").starts_with("dt_ms,"));
+}
+
+TEST_F(Courses, WhereNothingWasFoundNoOldFileIsTakenForIt) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+          "STEP T: OWN ERROR; IF NOT IN0 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n");
+    write("old.scn", "old");
+    EXPECT_EQ(run("verify p.seq --scenario old.scn --stimulus new.csv --json"), 0);
+    EXPECT_EQ(read("old.scn"), "old");
+    EXPECT_FALSE(results().empty());
+    EXPECT_EQ(read("err"),
+              "nothing to write: no course breaks a property or shows a fault; old.scn is as it was before, "
+              "and not of this run\n"
+              "nothing to write: no course breaks a property or shows a fault; new.csv was not written\n");
 }
 
 TEST_F(Courses, TheLongestTimeOfMovesIsToldWithTheVerdicts) {

@@ -148,8 +148,9 @@ class Writer {
         const std::uint64_t wait = ends - anchor.at + (changed_ || result_.is_late ? kSeen : 0);
         const bool lasts = wait != 0 && anchor.times == 1;
         const std::string event = lasts ? fmt::format("{} for {} ms", anchor.event, wait) : anchor.event;
-        text_ += fmt::format("once {}{} log \"here {} breaks\", end\n\n", lasts ? event : anchor.counted(),
-                             lasts ? "" : after(wait), result_.name);
+        const std::string shown = result_.code.empty() ? result_.name + " breaks" : result_.code + " shows";
+        text_ += fmt::format("once {}{} log \"here {}\", end\n\n", lasts ? event : anchor.counted(),
+                             lasts ? "" : after(wait), shown);
         text_ +=
             fmt::format("expect {} at least {} time{}\n", event, anchor.times, anchor.times == 1 ? "" : "s");
         text_ += fmt::format("expect step = {}{}\nend at {} ms\n", step_name(names_, end.step),

@@ -142,7 +142,7 @@ Json document_of(const verify::Report& report, const Plays& plays, const VerifyA
         if (!result.conflict.empty()) added["conflict"] = result.conflict;
         if (!result.allowed.empty()) added["allowed"] = result.allowed;
         if (result.course) added["course"] = course_object(*result.course, names);
-        if (const auto play = plays.find(result.name); result.code.empty() && play != plays.end())
+        if (const auto play = plays.find(result.name); play != plays.end())
             added["scenario"] = play_object(play->second);
     }
     return document;
@@ -184,9 +184,15 @@ std::string conflict_text(const verify::Result& result, const VerifyArguments& o
     return fmt::format("  the last course: {}\n", result.conflict);
 }
 
+/// A fault; and of advice that the timer was not set, which the steps before it show.
+bool tells_course(const verify::Result& result) {
+    const bool is_fault = result.severity == verify::Severity::fault;
+    return is_fault || (result.code == "V007" && result.allowed.empty());
+}
+
 /// The finding of a check, at the position of the step.
-std::string finding_text(const verify::Result& result, const VerifyArguments& options, const Input& input,
-                         const verify::Names& names) {
+std::string finding_text(const verify::Result& result, const Plays& plays, const VerifyArguments& options,
+                         const Input& input, const verify::Names& names) {
     const bool is_fault = result.severity == verify::Severity::fault;
     const char* word = result.verdict == Verdict::undecided ? "undecided"
                        : !result.allowed.empty()            ? "allowed"
@@ -201,33 +207,10 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
         painted(stdout, is_fault ? "1;31" : "1;33", fmt::format("{} {}:", word, result.code)), result.reason);
     if (!result.allowed.empty()) text += fmt::format("  because {}\n", result.allowed);
     text += conflict_text(result, options);
-    if (is_fault && result.course) text += story_of(result, names);
+    if (tells_course(result) && result.course) text += story_of(result, names);
+    if (const auto play = plays.find(result.name); play != plays.end())
+        text += fmt::format("  {}\n", told(play->second));
     return text;
-}
-
-/// Findings of one check in a step and in its copies are reported as one, that of the step. Null: this
-/// finding is part of another.
-const verify::Result* told_for(const verify::Report& report, const verify::Result& result,
-                               const verify::Names& names, std::string& copies) {
-    if (!result.step) return &result;
-    const auto origin_of = [&](std::uint8_t step) { return names.copy_of[step].value_or(step); };
-    const verify::Result* first = nullptr;
-    for (const verify::Result& other : report.results) {
-        const bool is_same = other.step && other.code == result.code && other.verdict == result.verdict &&
-                             other.allowed == result.allowed &&
-                             origin_of(*other.step) == origin_of(*result.step);
-        if (!is_same) continue;
-        const bool is_origin = *other.step == origin_of(*other.step);
-        if (first == nullptr || is_origin) first = &other;
-    }
-    if (first != &result) return nullptr;
-    for (const verify::Result& other : report.results) {
-        const bool is_copy = &other != first && other.step && other.code == result.code &&
-                             other.verdict == result.verdict && other.allowed == result.allowed &&
-                             origin_of(*other.step) == origin_of(*result.step);
-        if (is_copy) copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other.step]);
-    }
-    return first;
 }
 
 std::string undecided_text(const verify::Report& report) {
@@ -248,7 +231,7 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
             checks_that_hold += holds ? 1 : 0;
             std::string copies;
             if (holds || told_for(report, result, names, copies) == nullptr) continue;
-            text += finding_text(result, options, input, names);
+            text += finding_text(result, plays, options, input, names);
             if (!copies.empty()) text += fmt::format("  and in its copies: {}\n", copies);
             continue;
         }
@@ -323,6 +306,15 @@ int emit(const VerifyArguments& options, const Input& input, const std::vector<v
     return emit_question(options.emit, input, properties, assumptions, options.output);
 }
 
+/// With the inputs, which they must not overwrite.
+CourseFiles course_files(const VerifyArguments& options) {
+    CourseFiles files = options.courses;
+    files.read = {options.table.file, options.properties, options.table.symbols,
+                  options.junit,      options.proof,      options.courses.plant};
+    std::erase(files.read, "");
+    return files;
+}
+
 int run(const VerifyArguments& options) {
     if (const std::string wrong = contradiction(options); !wrong.empty()) return file_problem(wrong);
     const Input input = read_for_view(options.table);
@@ -355,22 +347,20 @@ int run(const VerifyArguments& options) {
                             "leave out one ASSUME NEVER");
     }
     if (!options.emit.empty()) return emit(options, input, properties, assumptions);
-    const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
     how.assume = options.assume == "any" ? Assume::any : Assume::driver;
-    how.order_time = order_times(translated);
+    how.order_time = order_times(input.symbols && input.symbols->drive != nullptr);
     how.assumptions = assumptions;
     if (input.program) how.allowances = allowances_in(*input.program);
     const verify::Report report = explored(options, input, loaded.table, names, properties, how);
     Plays plays;
-    CourseFiles files = options.courses;
-    files.read = {options.table.file, options.properties, options.table.symbols,
-                  options.junit,      options.proof,      options.courses.plant};
-    std::erase(files.read, "");
-    std::string wrong = written_courses(report, files, options.table, names, plays);
+    std::string untouched;
+    std::string wrong =
+        written_courses(report, course_files(options), options.table, names, plays, untouched);
     if (wrong.empty() && !options.junit.empty())
         wrong = whole_files::write_files({{options.junit, junit_of(report, options.table.file, names)}});
     if (!wrong.empty()) return file_problem(wrong);
+    std::fputs(untouched.c_str(), stderr);
     const int verdict = exit_code_of(report);
     if (!options.proof.empty()) {
         const int written = write_certificate(options.proof, report, verdict == kOk, input, options.assume,
@@ -411,7 +401,7 @@ void add_verify(arguments::App& app, int& exit_code) {
     command
         .add_option(
             "--stimulus", options->courses.stimulus,
-            "Write the course that breaks a property, for nanoplc-sim scan; of further ones OUT-Name.csv")
+            "Write the course of a broken property or a fault, for nanoplc-sim scan; of others OUT-Name.csv")
         ->type_name("OUT.csv");
     command
         .add_option("--scenario", options->courses.scenario,

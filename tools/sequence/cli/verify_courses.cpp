@@ -116,7 +116,61 @@ std::string clash_in(const std::vector<whole_files::OutputFile>& files,
     return {};
 }
 
+/// In the order of their files.
+std::vector<const verify::Result*> broken_in(const verify::Report& report, const verify::Names& names) {
+    std::vector<const verify::Result*> properties;
+    std::vector<const verify::Result*> faults;
+    for (const verify::Result& result : report.results) {
+        if (result.verdict != verify::Verdict::broken || !result.course) continue;
+        std::string copies;
+        if (result.code.empty()) {
+            properties.push_back(&result);
+        } else if (result.severity == verify::Severity::fault && !result.course->empty() &&
+                   told_for(report, result, names, copies) != nullptr) {
+            faults.push_back(&result);
+        }
+    }
+    properties.insert(properties.end(), faults.begin(), faults.end());
+    return properties;
+}
+
+/// An old file could be taken for one of this run.
+std::string untouched_text(const CourseFiles& wanted) {
+    std::string text;
+    for (const std::string& file : {wanted.scenario, wanted.stimulus, wanted.trace}) {
+        if (file.empty()) continue;
+        std::error_code ignored;
+        const bool is_there = file != "-" && std::filesystem::exists(host::path_of(file), ignored);
+        text += fmt::format("nothing to write: no course breaks a property or shows a fault; {} {}\n", file,
+                            is_there ? "is as it was before, and not of this run" : "was not written");
+    }
+    return text;
+}
+
 }  // namespace
+
+const verify::Result* told_for(const verify::Report& report, const verify::Result& result,
+                               const verify::Names& names, std::string& copies) {
+    if (!result.step) return &result;
+    const auto origin_of = [&](std::uint8_t step) { return names.copy_of[step].value_or(step); };
+    const verify::Result* first = nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_same = other.step && other.code == result.code && other.verdict == result.verdict &&
+                             other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (!is_same) continue;
+        const bool is_origin = *other.step == origin_of(*other.step);
+        if (first == nullptr || is_origin) first = &other;
+    }
+    if (first != &result) return nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_copy = &other != first && other.step && other.code == result.code &&
+                             other.verdict == result.verdict && other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (is_copy) copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other.step]);
+    }
+    return first;
+}
 
 std::string file_for(const std::string& file, const std::string& name, bool is_first) {
     if (is_first) return file;
@@ -127,13 +181,13 @@ std::string file_for(const std::string& file, const std::string& name, bool is_f
 }
 
 std::string written_courses(const verify::Report& report, const CourseFiles& wanted, const InputFile& program,
-                            const verify::Names& names, Plays& plays) {
+                            const verify::Names& names, Plays& plays, std::string& untouched) {
     const MotorLines plant = wanted.plant.empty() ? MotorLines{} : motor_lines_of(wanted.plant);
     if (!plant.error.empty()) return plant.error;
     std::vector<whole_files::OutputFile> files;
     bool is_first = true;
-    for (const verify::Result& result : report.results) {
-        if (result.verdict != verify::Verdict::broken || !result.course || !result.code.empty()) continue;
+    for (const verify::Result* broken : broken_in(report, names)) {
+        const verify::Result& result = *broken;
         const auto add = [&](const std::string& file, std::string text) {
             files.push_back({file_for(file, result.name, is_first), std::move(text)});
         };
@@ -147,6 +201,7 @@ std::string written_courses(const verify::Report& report, const CourseFiles& wan
         }
         is_first = false;
     }
+    if (is_first) untouched = untouched_text(wanted);
     std::string error = clash_in(files, wanted.read);
     return error.empty() ? whole_files::write_files(files) : error;
 }
