@@ -19,17 +19,6 @@ namespace {
 
 using std::chrono::seconds;
 
-std::string trouble_with(const std::string& path, int error) {
-    if (error == ENOENT) return "there is no " + path + "; load the driver of this board's watchdog";
-    if (error == EBUSY)
-        return path + ": another program has it; systemd does if its RuntimeWatchdogSec= is set";
-    if (error == EACCES) return "you may not use " + path + "; its group may, or root";
-    if (error == EPERM)
-        return "this service may not use " + path +
-               "; name it in DeviceAllow= of nanoplc.service (`systemctl edit nanoplc`)";
-    return path + ": " + std::strerror(error);
-}
-
 /// Stops it. False: it cannot be stopped. The magic close is used only if the driver has no command to stop:
 /// after the command the kernel would keep the permission, and the next program's crash would stop the
 /// watchdog.
@@ -49,12 +38,23 @@ int set_timeout(int device, int wanted) {
 
 }  // namespace
 
+std::string DeviceWatchdog::why_not_opened(const std::string& path, int error) {
+    if (error == ENOENT) return "there is no " + path + "; load the driver of this board's watchdog";
+    if (error == EBUSY)
+        return path + ": another program has it; systemd does if its RuntimeWatchdogSec= is set";
+    if (error == EACCES) return "you may not use " + path + "; its group may, or root";
+    if (error == EPERM)
+        return "this service may not use " + path +
+               "; name it in DeviceAllow= of nanoplc.service (`systemctl edit nanoplc`)";
+    return path + ": " + std::strerror(error);
+}
+
 DeviceWatchdog::Opened DeviceWatchdog::open(const std::string& path, base::Microseconds timeout) {
     const auto wanted = std::chrono::floor<seconds>(timeout);
     if (wanted < seconds(1) || wanted > seconds(std::numeric_limits<int>::max()))
         return {nullptr, path + ": its time is at least 1 s"};
     FileDescriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (!device) return {nullptr, trouble_with(path, errno)};
+    if (!device) return {nullptr, why_not_opened(path, errno)};
     watchdog_info info{};
     if (::ioctl(device.get(), WDIOC_GETSUPPORT, &info) != 0)
         return {nullptr, path + ": this is not a watchdog"};

@@ -187,6 +187,19 @@ TEST_F(AxisStoreTest, APowerCutGoesAsItIsConfigured) {
     EXPECT_EQ(start_and_end(), after_crash);
 }
 
+TEST_F(AxisStoreTest, AWatchdogThatCannotTellItsResetsMakesAPowerCutWait) {
+    EXPECT_TRUE(power_cut_waits({}, false));
+    EXPECT_FALSE(power_cut_waits({}, true));
+    EXPECT_FALSE(power_cut_waits({}, {})) << "without watchdog_device";
+    for (const std::optional<bool> tells_resets : {std::optional<bool>(), {false}, {true}}) {
+        EXPECT_TRUE(power_cut_waits(true, tells_resets));
+        EXPECT_FALSE(power_cut_waits(false, tells_resets));
+    }
+    command_run_once();
+    write_old_mark("running");
+    EXPECT_EQ(start_and_end({.power_cut_waits = power_cut_waits({}, false)}), after_crash);
+}
+
 TEST_F(AxisStoreTest, APowerCutAfterACrashIsStillACrash) {
     command_run_once();
     { Run crashed = start(); }

@@ -6,6 +6,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <cstddef>
 #include <cstring>
 
@@ -139,6 +141,17 @@ TEST(Device, SaysWhatIsWrong) {
               "there is no /dev/watchdog_not; load the driver of this board's watchdog");
     EXPECT_EQ(DeviceWatchdog::open("/dev/null", 5s).error, "/dev/null: this is not a watchdog");
     EXPECT_EQ(DeviceWatchdog::open("/dev/null", 999ms).error, "/dev/null: its time is at least 1 s");
+}
+
+TEST(Device, NamesTheRemedyForWhatKeepsItFromBeingOpened) {
+    const auto why = [](int error) { return DeviceWatchdog::why_not_opened("/dev/watchdog", error); };
+    EXPECT_EQ(why(EPERM),
+              "this service may not use /dev/watchdog; name it in DeviceAllow= of nanoplc.service "
+              "(`systemctl edit nanoplc`)");
+    EXPECT_EQ(why(EACCES), "you may not use /dev/watchdog; its group may, or root");
+    EXPECT_EQ(why(EBUSY),
+              "/dev/watchdog: another program has it; systemd does if its RuntimeWatchdogSec= is set");
+    EXPECT_EQ(why(EIO), "/dev/watchdog: Input/output error");
 }
 
 }  // namespace

@@ -17,6 +17,10 @@ std::string run_mark(const std::string& folder) {
 
 }  // namespace
 
+bool power_cut_waits(std::optional<bool> configured, std::optional<bool> tells_resets) {
+    return configured.value_or(!tells_resets.value_or(true));
+}
+
 ports::Storage& AxisStore::storage() {
     if (storage_) return *storage_;
     return no_storage_;

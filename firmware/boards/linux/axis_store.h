@@ -20,6 +20,11 @@ struct BoardStart {
     bool power_cut_waits = false;  ///< after a power cut during a run the axis waits for the operator
 };
 
+/// What `after_power_cut` means on this board. `configured`: whether it waits; empty: "auto". `tells_resets`:
+/// whether the driver of watchdog_device reports its own resets, which look like power cuts otherwise; empty:
+/// no watchdog_device.
+bool power_cut_waits(std::optional<bool> configured, std::optional<bool> tells_resets);
+
 /// An axis's folder: its store with the owner record, and the run marker that records how the last run ended.
 /// The sequence starts without a command only if run was commanded with this store, in this axis, since the
 /// last crash.

@@ -77,9 +77,11 @@ std::string Service::open() {
     }
     watchdog_ = std::make_unique<CommonWatchdog>(std::move(targets));
     catch_fatal_signals();
+    std::optional<bool> tells_resets;
+    if (device_) tells_resets = device_->tells_resets();
     const BoardStart board{
         hal_linux::DeviceWatchdog::any_has_reset_board() || (device_ && device_->has_reset_board()),
-        config_.power_cut_waits.value_or(device_ && !device_->tells_resets())};
+        power_cut_waits(config_.power_cut_waits, tells_resets)};
     const base::Instant now = clock_.now();
     for (const AxisConfig& config : config_.axes) {
         axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add()));

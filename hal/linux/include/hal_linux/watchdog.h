@@ -57,6 +57,8 @@ class DeviceWatchdog final : public ports::Watchdog {
     /// Opening arms it. The drivers support whole seconds, and some few values only: `timeout` returns the
     /// actual one, no longer than requested.
     static Opened open(const std::string& path, base::Microseconds timeout);
+    /// The reason and the remedy, one line, for the errno of an open(2) that failed.
+    static std::string why_not_opened(const std::string& path, int error);
     ~DeviceWatchdog();
     DeviceWatchdog(const DeviceWatchdog&) = delete;
     DeviceWatchdog& operator=(const DeviceWatchdog&) = delete;
