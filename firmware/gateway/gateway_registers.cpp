@@ -83,7 +83,8 @@ std::uint32_t GatewayRegisters::table_value(std::uint8_t reg) const {
             return tables_.capacity();
         case STORE_FLAGS:
             return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U) |
-                   (set_points_.were_damaged() ? 4U : 0U) | (gateway_.waits_for_first_run() ? 8U : 0U);
+                   (set_points_.were_damaged() ? 4U : 0U) |
+                   (gateway_.waits_for_first_run() ? 8U | store_traces_.flags() : 0U);
         case COMMAND:
             return last_command_;
         case FORCE_IN:

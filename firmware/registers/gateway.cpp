@@ -23,7 +23,9 @@ constexpr std::array kMap{
         "same "
         "of the settings, with older or initial ones; bit 2: the same of the set-points, with older values "
         "or "
-        "defaults; bit 3: nobody has commanded run with this store yet, and nothing starts by itself before"},
+        "defaults; bit 3: nobody has commanded run with this store yet, and nothing starts by itself before; "
+        "only on Linux and with bit 3, bit 4: the axis had another store here, which is lost; bit 5: it is "
+        "the store of another axis"},
     Row{PASSWORD_STATE, 1, "PASSWORD_STATE", kRead,
         "0: this port asks for no password; 1: it does, and this client has not given it; 2: it has"},
     Row{PASSWORD, 1, "PASSWORD", Access::write, "the port's password, 8 to 128 bytes, see Password below"},

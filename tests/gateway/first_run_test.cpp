@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <utility>
 
 #include "port_bench.h"
 
@@ -68,6 +69,21 @@ TEST_F(FirstRun, ANewStoreWaitsForIt) {
     restart();
     EXPECT_FALSE(runs()) << "erased";
     EXPECT_EQ(read(reg::STORE_FLAGS), kNewStore);
+}
+
+TEST_F(FirstRun, ABoardThatKnowsWhatWasThereSaysSoUntilTheRun) {
+    for (const auto& [trace, flags] :
+         {std::pair{StoreTrace::lost, 8U | 16U}, {StoreTrace::anothers, 8U | 32U}}) {
+        flash = sim::SimStorage(kFlash);
+        restart();
+        controller->registers().store_traces().note(trace);
+        EXPECT_EQ(read(reg::STORE_FLAGS), flags);
+        ASSERT_TRUE(command(Command::stop));
+        EXPECT_EQ(read(reg::STORE_FLAGS), flags);
+        ASSERT_TRUE(upload_and_activate(kFirstTable));
+        ASSERT_TRUE(command(Command::run));
+        EXPECT_EQ(read(reg::STORE_FLAGS), 0U);
+    }
 }
 
 TEST_F(FirstRun, AScanAndAStepAreRunsToo) {

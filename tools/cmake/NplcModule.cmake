@@ -46,7 +46,7 @@ if(NOT NPLC_HOSTED)
   option(NPLC_UPDATE "Renew the firmware over the user's port, with a loader and two slots" OFF)
   add_compile_definitions(NPLC_UPDATE=$<BOOL:${NPLC_UPDATE}>)
   add_compile_definitions(NPLC_SET_POINTS=$<BOOL:${NPLC_SET_POINTS}> NPLC_RECIPES=4 NPLC_MODBUS=$<BOOL:${NPLC_MODBUS}>
-                          NPLC_LATE_LINES=0)
+                          NPLC_LATE_LINES=0 NPLC_STORE_TRACES=0)
 endif()
 
 add_library(nplc_options INTERFACE)

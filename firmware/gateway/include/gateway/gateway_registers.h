@@ -6,6 +6,7 @@
 
 #include "gateway/firmware_update.h"
 #include "gateway/settings_manager.h"
+#include "gateway/store_trace.h"
 #include "gateway/table_manager.h"
 #include "ports/serial.h"
 
@@ -49,6 +50,8 @@ class GatewayRegisters {
     std::uint8_t written() const { return written_; }  ///< register of the last write
 
     FirmwarePart& firmware() { return firmware_; }
+    /// For STORE_FLAGS, which shows it while a first run is waited for.
+    StoreTracePart& store_traces() { return store_traces_; }
     const SettingsManager& settings() const { return settings_; }
     PortCounters& port() { return port_; }
     /// A client has requested a reset, and no set-point request is being stored.
@@ -98,6 +101,7 @@ class GatewayRegisters {
     Lines lines_;
     bool reset_asked_ = false;
     [[no_unique_address]] FirmwarePart firmware_;  ///< if the firmware supports it
+    [[no_unique_address]] StoreTracePart store_traces_;
 
     std::uint8_t written_ = 0;
     std::uint8_t writes_begun_ = 0;
