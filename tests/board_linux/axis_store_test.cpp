@@ -48,13 +48,16 @@ class AxisStoreTest : public testing::Test {
     AxisStoreTest() {
         std::string made = (fs::temp_directory_path() / "axis_store_XXXXXX").string();
         root_ = ::mkdtemp(made.data());
+        today = kThatDay;
     }
     ~AxisStoreTest() override { fs::remove_all(root_); }
 
     /// One run of the service.
     struct Run {
         Run(const std::string& folder, const std::string& name, const BoardStart& board)
-            : axis(name), store(axis_journal, name) {
+            : axis(name),
+              commissioned(fs::path(folder).parent_path().string(), [] { return today; }),
+              store(axis_journal, name, commissioned) {
             testing::internal::CaptureStderr();
             error = store.open(folder);
             if (!error.empty()) return;
@@ -75,6 +78,7 @@ class AxisStoreTest : public testing::Test {
         std::string axis;
         Journal journal{LogLevel::debug};
         AxisJournal axis_journal{journal, axis};
+        CommissionedAxes commissioned;
         AxisStore store;
         bool is_after_crash = false;
         AutostartPermission permission = bad_mark;
@@ -84,6 +88,7 @@ class AxisStoreTest : public testing::Test {
 
     std::string folder(const std::string& axis = "a") const { return (root_ / axis).string(); }
     std::string store(const std::string& axis = "a") const { return folder(axis) + "/store.bin"; }
+    std::string list() const { return (root_ / "commissioned.txt").string(); }
     std::string mark(const std::string& axis = "a") const { return folder(axis) + "/running"; }
 
     Run start(const BoardStart& board = {}, const std::string& axis = "a") const {
@@ -124,6 +129,8 @@ class AxisStoreTest : public testing::Test {
         write(mark(), checked + crc.data());
     }
 
+    static constexpr std::chrono::sys_seconds kThatDay{1'700'000'000s};  // 2023-11-14 22:13:20 UTC
+    static inline std::chrono::sys_seconds today = kThatDay;
     fs::path root_;
 };
 
@@ -253,7 +260,8 @@ TEST_F(AxisStoreTest, ACrashIsInTheStoreBeforeTheMarkSaysThatItRuns) {
     const std::string axis = "a";
     Journal journal{LogLevel::error};
     AxisJournal axis_journal{journal, axis};
-    AxisStore again(axis_journal, axis);
+    CommissionedAxes commissioned(root_.string());
+    AxisStore again(axis_journal, axis, commissioned);
     ASSERT_EQ(again.open(folder()), "");
     EXPECT_TRUE(again.is_after_crash({}));
     fs::rename(store(), store() + ".away");
@@ -275,10 +283,6 @@ TEST_F(AxisStoreTest, JunkInTheMarkWaitsLikewise) {
 
 TEST_F(AxisStoreTest, WhatWasLostStartsNothing) {
     command_run_once();
-    fs::remove_all(folder());
-    EXPECT_EQ(start_and_end(), first_run) << "the folder is gone: a new one";
-
-    command_run_once();
     write(store(), std::string(32 * 1024, '\xFF'));
     {
         Run run = start();
@@ -296,6 +300,137 @@ TEST_F(AxisStoreTest, WhatWasLostStartsNothing) {
     EXPECT_EQ(start_and_end(), given);
 }
 
+// Two axes that were in use; the folder of one is removed.
+TEST_F(AxisStoreTest, AFolderThatIsLostIsNotTakenForANewAxis) {
+    const std::string lost_since =
+        "a: its store was lost (it was in use since 2023-11-14): waits for `nanoctl run`";
+    command_run_once("a");
+    command_run_once("b");
+    today += std::chrono::days(30);
+    fs::remove_all(folder());
+    for (int i = 0; i < 3; ++i) {
+        Run run = start();
+        EXPECT_EQ(run.permission, first_run);
+        EXPECT_EQ(run.store.trace(), gateway::StoreTrace::lost);
+        EXPECT_NE(run.said.find(lost_since), std::string::npos) << run.said;
+        EXPECT_EQ(run.said.find("new here"), std::string::npos) << run.said;
+        run.end();
+        EXPECT_EQ(start_and_end({}, "b"), given);
+    }
+    command_run_once();
+    EXPECT_EQ(start_and_end(), given);
+    fs::remove_all(folder());
+    Run run = start();
+    EXPECT_NE(run.said.find("in use since 2023-12-14"), std::string::npos) << "its later store: " << run.said;
+}
+
+TEST_F(AxisStoreTest, AnAxisThatWasNeverCommissionedIsNewWhateverIsRemoved) {
+    command_run_once("b");
+    start_and_end();
+    fs::remove_all(folder());
+    Run run = start();
+    EXPECT_EQ(run.store.trace(), gateway::StoreTrace::none);
+    EXPECT_NE(run.said.find("new here"), std::string::npos) << run.said;
+}
+
+TEST_F(AxisStoreTest, WithTheWholeStateDirectoryEachIsNew) {
+    command_run_once("a");
+    command_run_once("b");
+    fs::remove_all(root_);
+    for (const char* axis : {"a", "b"}) {
+        Run run = start({}, axis);
+        EXPECT_EQ(run.permission, first_run);
+        EXPECT_EQ(run.store.trace(), gateway::StoreTrace::none);
+        EXPECT_NE(run.said.find("new here"), std::string::npos) << run.said;
+    }
+}
+
+TEST_F(AxisStoreTest, AnAxisThatIsLeftOutAndComesBackIsNotLost) {
+    command_run_once("a");
+    command_run_once("b");
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(start_and_end({}, "b"), given) << "without a";
+    Run run = start();
+    EXPECT_EQ(run.permission, given);
+    EXPECT_EQ(run.said, "");
+}
+
+TEST_F(AxisStoreTest, AnAxisOfBeforeTheListGetsIntoIt) {
+    command_run_once();
+    { Run crashed = start(); }
+    fs::remove(list());
+    start_and_end();
+    EXPECT_EQ(start_and_end(), after_crash);
+    ASSERT_TRUE(fs::exists(list()));
+    fs::remove_all(folder());
+    EXPECT_NE(start().said.find("its store was lost (it was in use since 2023-11-14)"), std::string::npos);
+}
+
+TEST_F(AxisStoreTest, ADamagedListIsNone) {
+    command_run_once("longer-name");
+    command_run_once();
+    const std::string sound = content(list());
+    const auto expect_none = [&](const std::string& damaged) {
+        write(list(), damaged);
+        const CommissionedAxes read(root_.string());
+        EXPECT_EQ(read.fault(), list() + ": is damaged");
+        EXPECT_EQ(read.since("a"), std::nullopt);
+        EXPECT_EQ(read.since("longer-name"), std::nullopt);
+    };
+    for (std::size_t bit = 0; bit < 8 * sound.size(); ++bit) {
+        std::string damaged = sound;
+        damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+        expect_none(damaged);
+    }
+    for (std::size_t length = 0; length < sound.size(); ++length) expect_none(sound.substr(0, length));
+    expect_none(sound + "\n");
+    expect_none(std::string(100'000, 'x'));
+
+    EXPECT_EQ(start_and_end(), given) << "it permits nothing and forbids nothing";
+    const CommissionedAxes again(root_.string());
+    EXPECT_EQ(again.fault(), "");
+    EXPECT_EQ(again.since("a"), today) << "entered anew";
+    write(list(), sound);
+    EXPECT_EQ(CommissionedAxes(root_.string()).since("longer-name"), kThatDay);
+}
+
+TEST_F(AxisStoreTest, AListThatCannotBeReadOrWrittenStopsNothing) {
+    fs::create_directories(list() + "/in_the_way");
+    {
+        Run run = start();
+        EXPECT_EQ(run.commissioned.fault(), list() + ": cannot be read: Is a directory");
+        EXPECT_EQ(run.command_run(), "");
+        EXPECT_EQ(run.permission, first_run);
+        EXPECT_EQ(run.store.permission(), given);
+        auto outcome = run.commissioned.poll();
+        while (!outcome) outcome = run.commissioned.poll();
+        EXPECT_EQ(*outcome, list() + ": cannot be written: Is a directory");
+        run.end();
+    }
+    EXPECT_EQ(start_and_end(), given);
+    fs::remove_all(list());
+    fs::create_symlink(store(), list());
+    EXPECT_EQ(CommissionedAxes(root_.string()).fault(),
+              list() + ": cannot be read: Too many levels of symbolic links");
+}
+
+/// The second is entered while the first may be on its way to the disk; another process enters a third, which
+/// the first does not know.
+TEST_F(AxisStoreTest, NoneOfTheListIsForgotten) {
+    {
+        CommissionedAxes one(root_.string());
+        CommissionedAxes other(root_.string());
+        other.enter("c");
+        auto outcome = other.poll();
+        while (!outcome) outcome = other.poll();
+        EXPECT_EQ(*outcome, "");
+        one.enter("a");
+        one.enter("b");
+    }
+    const CommissionedAxes read(root_.string());
+    for (const char* axis : {"a", "b", "c"}) EXPECT_TRUE(read.since(axis)) << axis;
+    EXPECT_EQ(read.since("d"), std::nullopt);
+}
+
 TEST_F(AxisStoreTest, AnotherAxissStoreWaitsAndIsNamed) {
     command_run_once("a");
     command_run_once("b");
@@ -303,6 +438,7 @@ TEST_F(AxisStoreTest, AnotherAxissStoreWaitsAndIsNamed) {
     for (int i = 0; i < 2; ++i) {
         Run run = start();
         EXPECT_EQ(run.permission, first_run);
+        EXPECT_EQ(run.store.trace(), gateway::StoreTrace::anothers);
         EXPECT_NE(run.said.find("is the store of axis b"), std::string::npos) << run.said;
         run.end();
     }

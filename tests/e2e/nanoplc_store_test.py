@@ -179,12 +179,35 @@ class Mark(Stored):
             service, _ = self.expect_waits(config, "bad run mark", "nobody knows whether the last run ended in order")
             self.assertEqual(self.end(service), 0)
 
+    def test_a_lost_folder_is_not_a_new_axis(self):
+        config = self.stored_run()
+        for _ in range(2):
+            shutil.rmtree(self.path("state/x"))
+            service, status = self.expect_waits(config, "not started", "x: its store was lost (it was in use since ")
+            self.assertEqual((status["waits_for_first_run"], status["store_lost"], status["store_of_another_axis"]), (True, True, False))
+            self.assertNotIn("new here", service.said())
+            words = subprocess.run([service_case.NANOCTL, "--port", "unix:" + self.path("x"), "--patience", "2000", "status"],
+                                   capture_output=True, text=True, check=True).stdout
+            self.assertIn("\nLOST: the store that the axis had", words)
+            self.ctl("reset")
+            self.until_status(lambda status: status["store_lost"])
+            self.ctl("upload", self.table, "--run")
+            self.assertFalse(self.ctl("status")["store_lost"])
+            self.assertEqual(self.end(service), 0)
+        self.flip(self.path("state/commissioned.txt"), 7)
+        shutil.rmtree(self.path("state/x"))
+        service, status = self.expect_waits(config, "not started", "new here: waits for a first run command")
+        self.assertIn("commissioned.txt: is damaged; which axes were in use before is not known", service.said())
+        self.assertFalse(status["store_lost"])
+
     def test_another_axiss_store_waits(self):
         config = self.stored_run()
         os.rename(self.path("state/x"), self.path("state/y"))
         config = self.write(self.axis("y", port="unix:" + self.path("x")))
-        service, _ = self.expect_waits(config, "not started", "is the store of axis x")
+        service, status = self.expect_waits(config, "not started", "is the store of axis x")
+        self.assertEqual((status["waits_for_first_run"], status["store_lost"], status["store_of_another_axis"]), (True, False, True))
         self.ctl("run")
+        self.assertFalse(self.ctl("status")["store_of_another_axis"])
         self.moves()
         self.assertEqual(self.end(service), 0)
         self.start(config)

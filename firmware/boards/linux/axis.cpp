@@ -142,6 +142,7 @@ void Axis::block_start() {
             if (is_unstopped_) sequence.block_start(SafeReason::stop_command);
             return;
         case AutostartPermission::first_run:
+            controller_->registers().store_traces().note(store_.trace());
             return sequence.wait_for_mark(SafeReason::not_started);
         case AutostartPermission::after_crash:
             return sequence.wait_for_mark(SafeReason::watchdog);

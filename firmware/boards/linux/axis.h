@@ -24,10 +24,12 @@ namespace nplc::boards {
 /// runs on them.
 class Axis {
   public:
-    Axis(const AxisConfig& config, Journal& journal, ports::Watchdog& watchdog)
+    Axis(const AxisConfig& config, Journal& journal, ports::Watchdog& watchdog,
+         CommissionedAxes& commissioned)
         : config_(config),
           journal_(journal, config.name),
           watchdog_(watchdog),
+          store_(journal_, config_.name, commissioned),
           faces_(config.name, config.scaling, config.faces) {}
     ~Axis();
     Axis(const Axis&) = delete;
@@ -117,7 +119,7 @@ class Axis {
     bool is_giving_ = false;                    ///< give_permission() is under way
     bool is_unstopped_ = false;                 ///< the motor had not confirmed its stop at the last reset
 
-    AxisStore store_{journal_, config_.name};
+    AxisStore store_;
     AxisPins pins_;
     MotorPart motor_;
     MactalkPart mactalk_;

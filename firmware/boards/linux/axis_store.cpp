@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -13,6 +14,12 @@ using Found = hal_linux::RunMarker::Found;
 
 std::string run_mark(const std::string& folder) {
     return folder + "/running";
+}
+
+std::string date_of(std::chrono::sys_seconds time) {
+    const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(time));
+    return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
 }  // namespace
@@ -78,8 +85,26 @@ void AxisStore::check_owner(const std::string& path) {
             break;
     }
     if (marker_is_bad_ && permission_ != lost) permission_ = bad_mark;
-    if (permission_ == first_run && !owner_->is_anothers())
+    look_for_traces();
+}
+
+/// What the list of commissioned axes says of a new store, and the other way round: an axis from before there
+/// was a list gets into it.
+void AxisStore::look_for_traces() {
+    using enum AutostartPermission;
+    const auto since = commissioned_.since(axis_);
+    if ((permission_ == given || permission_ == after_crash) && !since) commissioned_.enter(axis_);
+    if (permission_ != first_run) return;
+    if (owner_->is_anothers()) {
+        trace_ = gateway::StoreTrace::anothers;
+    } else if (since) {
+        trace_ = gateway::StoreTrace::lost;
+        journal_.write(LogLevel::error,
+                       fmt::format("its store was lost (it was in use since {}): waits for `nanoctl run`",
+                                   date_of(*since)));
+    } else {
         journal_.write(LogLevel::notice, "new here: waits for a first run command, `nanoctl run`");
+    }
 }
 
 /// The stored data are lost if the marker shows earlier runs and the store is missing.
@@ -165,6 +190,9 @@ std::optional<std::string> AxisStore::give_permission(base::Instant now) {
     asked_.reset();
     if (!outcome) return "the store takes longer than 1 s to be written";
     if (outcome->empty()) {
+        const bool is_new_store =
+            permission_ == AutostartPermission::first_run || permission_ == AutostartPermission::lost;
+        if (is_new_store || !commissioned_.since(axis_)) commissioned_.enter(axis_);
         permission_ = AutostartPermission::given;
         is_after_crash_ = false;
     }

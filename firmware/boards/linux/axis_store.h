@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "commissioned.h"
+#include "gateway/store_trace.h"
 #include "hal_linux/background_storage.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/run_marker.h"
@@ -30,7 +32,9 @@ bool power_cut_waits(std::optional<bool> configured, std::optional<bool> tells_r
 /// last crash.
 class AxisStore {
   public:
-    AxisStore(AxisJournal& journal, std::string axis) : journal_(journal), axis_(std::move(axis)) {}
+    /// `commissioned`: all axes' list.
+    AxisStore(AxisJournal& journal, std::string axis, CommissionedAxes& commissioned)
+        : journal_(journal), axis_(std::move(axis)), commissioned_(commissioned) {}
 
     /// Empty, or a one-line error; then it may be retried. Replaces a missing store with one marked 'data
     /// lost' until the next upload.
@@ -44,6 +48,8 @@ class AxisStore {
     /// then nothing starts without a command. Needs is_open().
     bool is_after_crash(const BoardStart& board);
     AutostartPermission permission() const { return permission_; }
+    /// Why run was never commanded with this store, when it was opened.
+    gateway::StoreTrace trace() const { return trace_; }
     /// Marks a run as begun and stores the permission. Leaves the record in a store of another axis
     /// unchanged. Empty, or a one-line error.
     std::string mark_running();
@@ -59,11 +65,14 @@ class AxisStore {
   private:
     std::string check_marker(const std::string& folder, const std::string& path);
     void check_owner(const std::string& path);
+    void look_for_traces();
     bool was_cut_off(const BoardStart& board) const;
     std::string replace_lost_store(const std::string& path);
 
     AxisJournal& journal_;
     std::string axis_;
+    CommissionedAxes& commissioned_;
+    gateway::StoreTrace trace_ = gateway::StoreTrace::none;
     std::optional<hal_linux::RunMarker> marker_;
     bool marker_is_bad_ = false;  ///< at the start
     bool is_lost_ = false;        ///< the store was missing and has been replaced

@@ -82,9 +82,11 @@ std::string Service::open() {
     const BoardStart board{
         hal_linux::DeviceWatchdog::any_has_reset_board() || (device_ && device_->has_reset_board()),
         power_cut_waits(config_.power_cut_waits, tells_resets)};
+    if (const std::string& fault = commissioned_.fault(); !fault.empty())
+        journal_.write(LogLevel::warning, fault + "; which axes were in use before is not known");
     const base::Instant now = clock_.now();
     for (const AxisConfig& config : config_.axes) {
-        axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add()));
+        axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add(), commissioned_));
         last_resort[axes_.size() - 1] = axes_.back().get();
         axes_.back()->open(config_.state_directory, board, now);
     }
@@ -152,9 +154,17 @@ void Service::show_status() {
     service_->status(status);
 }
 
+void Service::tell_of_list() {
+    const auto outcome = commissioned_.poll();
+    if (outcome && !outcome->empty())
+        journal_.write(LogLevel::warning,
+                       *outcome + "; an axis whose folder is lost will be taken for a new one");
+}
+
 void Service::serve_until_signal() {
     for (;;) {
         wait_and_serve(base::kNever);
+        tell_of_list();
         show_status();
         if (const auto signal = loop_->signal()) {
             journal_.write(LogLevel::notice, fmt::format("ends: {}", ::strsignal(*signal)));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "axis.h"
+#include "commissioned.h"
 #include "config.h"
 #include "hal_linux/steady_clock.h"
 #include "hal_linux/watchdog.h"
@@ -37,7 +38,11 @@ class CommonWatchdog {
 class Service {
   public:
     Service(const Config& config, Journal& journal)
-        : config_(config), journal_(journal), panel_(config, journal), plant_(config, journal) {}
+        : config_(config),
+          journal_(journal),
+          commissioned_(config.state_directory),
+          panel_(config, journal),
+          plant_(config, journal) {}
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
@@ -52,6 +57,7 @@ class Service {
     void tell_unstopped(const Axis& axis, const std::string& why);
     void wait_and_serve(base::Instant latest);
     void show_status();
+    void tell_of_list();
     base::Instant wanted_by_watchdog() const;
 
     const Config& config_;
@@ -61,6 +67,7 @@ class Service {
     std::unique_ptr<hal_linux::ServiceWatchdog> service_;
     std::unique_ptr<hal_linux::DeviceWatchdog> device_;
     std::unique_ptr<CommonWatchdog> watchdog_;
+    CommissionedAxes commissioned_;
     std::vector<std::unique_ptr<Axis>> axes_;
     PanelPart panel_;  ///< ends before the axes
     PlantPart plant_;  ///< likewise

@@ -137,6 +137,21 @@ std::pair<Block, Status> identity_and_status(GatewayClient& gateway) {
     }
 }
 
+// STORE_FLAGS
+constexpr std::uint32_t kFirstRun = 8;
+constexpr std::uint32_t kStoreLost = 16;
+constexpr std::uint32_t kOfAnotherAxis = 32;
+
+std::string first_run_text(std::uint32_t flags) {
+    if ((flags & kFirstRun) == 0) return {};
+    if ((flags & kStoreLost) != 0)
+        return "\nLOST: the store that the axis had; look at its table and settings: waits for `nanoctl run`";
+    if ((flags & kOfAnotherAxis) != 0)
+        return "\nthe store of another axis, which the gateway's journal names; look at its table and "
+               "settings: waits for `nanoctl run`";
+    return "\nnew here: waits for a first run command, `nanoctl run`";
+}
+
 struct StatusOptions {
     bool why = false;
 };
@@ -167,7 +182,7 @@ void show_status(Session& session, const StatusOptions& options) {
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
     if (has_store && (flags & 4) != 0)
         text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
-    if ((flags & 8) != 0) text += "\nnew here: waits for a first run command, `nanoctl run`";
+    text += first_run_text(flags);
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
                         name_of(status.link), count(gw::LINK_LOSSES), count(gw::RESENT), count(gw::ORDERS),
                         count(gw::DISCARDED));
@@ -189,7 +204,9 @@ void show_status(Session& session, const StatusOptions& options) {
                      {"table_damaged", (flags & 1) != 0},
                      {"settings_damaged", (flags & 2) != 0},
                      {"set_points_damaged", (flags & 4) != 0},
-                     {"waits_for_first_run", (flags & 8) != 0},
+                     {"waits_for_first_run", (flags & kFirstRun) != 0},
+                     {"store_lost", (flags & kStoreLost) != 0},
+                     {"store_of_another_axis", (flags & kOfAnotherAxis) != 0},
                      {"link_losses", count(gw::LINK_LOSSES)},
                      {"resent", count(gw::RESENT)},
                      {"orders", count(gw::ORDERS)},
