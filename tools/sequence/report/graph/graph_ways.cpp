@@ -88,6 +88,17 @@ bool GraphWays::is_true(const Written::Branch& branch, std::uint8_t step) const 
     return branch.when.any();
 }
 
+/// Of all branches that the compiler made of one, for the copies of a step, and that lead to the same box.
+Truth GraphWays::cases_with(const Written::Step& step, const Written::Branch& branch) const {
+    Truth cases = branch.when;
+    const std::uint8_t to = box_of(branch.next.value_or(step.number));
+    for (const Written::Branch& other : step.branches) {
+        const bool is_of_it = !other.is_idle && !branch.is_idle && other.condition == branch.condition;
+        if (is_of_it && box_of(other.next.value_or(step.number)) == to) cases |= other.when;
+    }
+    return cases;
+}
+
 GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branch& branch,
                                  const Truth& told) const {
     const WrittenText text = text_of(step);
@@ -96,7 +107,7 @@ GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branc
                         .actions = text.statements(branch.statements),
                         .to = box_of(branch.next.value_or(step.number)),
                         .by = branch.by_helper};
-    const bool is_as_written = (branch.own & ~told) == (branch.when & ~told);
+    const bool is_as_written = (branch.own & ~told) == (cases_with(step, branch) & ~told);
     if (branch.statements.empty() && branch.when == truth_of_bit(kErrorBit)) {
         way.condition = "ERROR";
     } else if (!is_as_written || leads_to_several(step, condition)) {

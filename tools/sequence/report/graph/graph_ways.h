@@ -43,6 +43,7 @@ class GraphWays {
     /// Texts of a step, with the arguments of its sequence.
     WrittenText text_of(const Written::Step& step) const;
     GraphModel::Way shown(const Written::Step& step, const Written::Branch& branch, const Truth& told) const;
+    Truth cases_with(const Written::Step& step, const Written::Branch& branch) const;
     bool is_needed(const Written::Step& step, const Written::Branch& idle, const Truth& reads) const;
     std::string actions(std::uint8_t step, const StepTransition& reaction) const;
     std::string condition_of(const OutputRule& rule, std::uint8_t step) const;
