@@ -20,6 +20,7 @@ import time
 import unittest
 
 import debian
+import image  # of tests/vm
 from nanoplc_test import join, simulator  # of tests/vm
 
 ROOT = os.path.join(debian.HERE, "..", "..")
@@ -82,6 +83,12 @@ def next_version(package, folder):
     return made
 
 
+def softdog():
+    """The kernel's own watchdog, and what loads it."""
+    [module] = glob.glob(os.path.join(image.VM, "kernel/lib/modules/*/kernel/drivers/watchdog/softdog.ko"))
+    return {"/test/softdog.ko": module, "/test/busybox": os.path.join(image.VM, "root/bin/busybox")}
+
+
 class Machine:
     """The board, started once for all steps."""
 
@@ -93,7 +100,7 @@ class Machine:
         self.motor, _ = simulator.start(macsim, "--model", "MAC140", "--fastmac", "unix:" + endpoint)
         self.board = debian.Debian(self.folder.name, {
             "/test/nanoplc.deb": package, "/test/next.deb": next_version(package, self.folder.name), "/test/table.bin": table,
-            "/test/nanoplc.toml": CONFIG, "/test/doubled.toml": DOUBLED, "/test/probe": PROBE}, serials=["motor"]).__enter__()
+            "/test/nanoplc.toml": CONFIG, "/test/doubled.toml": DOUBLED, "/test/probe": PROBE, **softdog()}, serials=["motor"]).__enter__()
         line = socket.socket(socket.AF_UNIX)
         line.connect(endpoint)
         join(self.board.serials["motor"], line)
@@ -229,6 +236,38 @@ class Systemd(unittest.TestCase):
         self.until("the watchdog", "journalctl -u nanoplc -o cat --no-pager | grep -F 'Watchdog timeout'")
         self.until_runs_anew(pid)
         self.waits_for_run()
+
+    def pings(self):
+        """How often the watchdog has been fed, as the kernel counts it."""
+        return int(self.run_there("awk '$1 == \"fed\" { print $2 }' /sys/kernel/tracing/kprobe_profile"))
+
+    def watchdog_is(self, state):
+        self.until(f"a watchdog that is {state}", f"grep -x {state} /sys/class/watchdog/watchdog0/state")
+
+    def test_8_the_boards_watchdog_is_fed_and_disarmed(self):
+        """By the kernel's softdog, told to reset nothing."""
+        self.run_there("mount -t tracefs none /sys/kernel/tracing && /test/busybox insmod /test/softdog.ko soft_noboot=1")
+        self.until("the udev rule at work", "[ $(stat -c %G:%a /dev/watchdog) = gpio:660 ]")
+        self.assertEqual(self.run_there("cat /sys/class/watchdog/watchdog0/identity"), "Software Watchdog")
+        self.watchdog_is("inactive")
+        self.run_there("echo 'p:fed softdog_ping' >/sys/kernel/tracing/kprobe_events && "
+                       "echo 1 >/sys/kernel/tracing/events/kprobes/fed/enable")
+        self.run_there(f"cp {SETTINGS} /test/before.toml; sed -i '/^\\[service\\]/awatchdog_device = \"/dev/watchdog\"' {SETTINGS}")
+        self.run_there("systemctl restart nanoplc")
+        self.until("the sequence", RUNS)
+        pid = self.shown("MainPID")
+        self.assertEqual(self.run_there(f"stat -c %U /proc/{pid}"), "nanoplc")
+        self.assertIn("/dev/watchdog", self.run_there(f"ls -l /proc/{pid}/fd").split())
+        self.watchdog_is("active")
+        before = self.pings()
+        self.until("two more feeds", f"[ $(awk '{{ print $2 }}' /sys/kernel/tracing/kprobe_profile) -gt {before + 1} ]")
+        self.run_there("systemctl stop nanoplc")
+        self.assertEqual(self.shown("Result"), "success")
+        self.watchdog_is("inactive")
+        self.assertNotIn("cannot be stopped", self.journal())
+        self.run_there(f"cp /test/before.toml {SETTINGS}; systemctl start nanoplc")
+        self.until("the sequence", RUNS)
+        self.watchdog_is("inactive")
 
     def test_9_an_upgrade_keeps_what_is_there_and_a_moving_machine(self):
         self.run_there(f"echo '# mine' >>{SETTINGS}; sha256sum {STORE} {SETTINGS} >/test/sums")
