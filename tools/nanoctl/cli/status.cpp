@@ -156,6 +156,18 @@ struct StatusOptions {
     bool why = false;
 };
 
+std::string store_text(const Status& status, std::uint32_t flags) {
+    if (status.safe_reason == gw::SafeReason::no_store)
+        return "\nNO STORE: it is locked, missing or not writable; the gateway's journal says why";
+    std::string text;
+    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
+    if ((flags & 2) != 0)
+        text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
+    if ((flags & 4) != 0)
+        text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
+    return text;
+}
+
 void show_status(Session& session, const StatusOptions& options) {
     session.right_names();
     GatewayClient& gateway = session.gateway();
@@ -173,15 +185,7 @@ void show_status(Session& session, const StatusOptions& options) {
     text += fmt::format("\nactive table {}; stored table {}",
                         table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)), stored_text(about, status));
     if (digest) text += fmt::format("\ncertificate {}", digest::hex(*digest));
-    const bool has_store = status.safe_reason != gw::SafeReason::no_store;
-    if (!has_store)
-        text += "\nNO STORE: it is locked, missing or not writable; the gateway's journal says why";
-    if (has_store && (flags & 1) != 0)
-        text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
-    if (has_store && (flags & 2) != 0)
-        text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
-    if (has_store && (flags & 4) != 0)
-        text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
+    text += store_text(status, flags);
     text += first_run_text(flags);
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
                         name_of(status.link), count(gw::LINK_LOSSES), count(gw::RESENT), count(gw::ORDERS),

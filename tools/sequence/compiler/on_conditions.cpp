@@ -12,9 +12,9 @@ namespace {
 
 using Steps = std::bitset<64>;
 
-class Groups {
+class ConditionGroups {
   public:
-    Groups(const ast::Program& program, Scope& scope) : scope_(scope) {
+    ConditionGroups(const ast::Program& program, Scope& scope) : scope_(scope) {
         for (const ast::Group& group : program.groups) {
             const Steps steps = all_of(group.steps);
             const auto [earlier, is_new] = groups_.try_emplace(upper(group.name.text), &group.name, steps);
@@ -85,7 +85,7 @@ Steps all_steps(const Scope& scope) {
 
 std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope,
                                        std::optional<std::uint8_t> fault) {
-    Groups groups(program, scope);
+    ConditionGroups groups(program, scope);
     std::vector<OnCondition> conditions;
     for (const ast::OnCondition& written : program.on_conditions) {
         const std::size_t errors = scope.report().error_count() + scope.faulty_names_met();

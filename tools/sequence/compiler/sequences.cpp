@@ -251,9 +251,9 @@ class Expansion {
     std::unordered_map<std::string, std::size_t> places_;  ///< of the sequences, by upper-case name
     std::unordered_set<std::string> taken_;                ///< names of steps, upper case
     std::unordered_map<std::string, int> last_numbers_;    ///< behind a name that is taken
-    std::map<std::string, std::size_t> instances_;      ///< the first step of each
-    std::map<std::string, std::string_view> families_;  ///< the first step of each name
-    std::vector<std::vector<std::string>> callers_;     ///< of each step: the sequences that led to it
+    std::map<std::string, std::size_t> instances_;         ///< the first step of each
+    std::map<std::string, std::string_view> families_;     ///< the first step of each name
+    std::vector<std::vector<std::string>> callers_;        ///< of each step: the sequences that led to it
 };
 
 }  // namespace
