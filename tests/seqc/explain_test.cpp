@@ -54,6 +54,8 @@ TEST_F(Explain, AnUnknownCodeIsOneLineWithTheNearest) {
     const std::string none = " is no code, word, command, register, mode or bit";
     EXPECT_EQ(run("explain withni"), 2);
     EXPECT_EQ(read("err"), "seqc: 'withni'" + none + "; did you mean 'WITHIN'?" + rest);
+    EXPECT_EQ(run("explain movng"), 2);
+    EXPECT_EQ(read("err"), "seqc: 'movng'" + none + "; did you mean 'moving'?" + rest);
     EXPECT_EQ(run("explain VHOME"), 2);
     EXPECT_EQ(read("err"), "seqc: 'VHOME'" + none + "; did you mean 'HOME' or 'V_HOME'?" + rest);
     EXPECT_EQ(run("explain nonsense"), 2);

@@ -81,8 +81,11 @@ std::vector<std::string> values_named(std::string_view word) {
 }
 
 /// All words that page_of_word() knows.
+constexpr std::string_view kMoving = "moving";  // the language's only lower-case word
+
 std::vector<std::string_view> known_words() {
     std::vector<std::string_view> words = reference_words();
+    words.push_back(kMoving);
     for (const auto& [model, motors] : kMaps) {
         for (const registers::Register& reg : registers::map_of(model)) {
             words.push_back(reg.name);
@@ -101,7 +104,6 @@ std::vector<std::string_view> known_words() {
 }  // namespace
 
 WordPage page_of_word(std::string_view written) {
-    constexpr std::string_view kMoving = "moving";  // the only lower-case word
     WordPage page;
     page.word = same_name(written, kMoving) ? std::string(kMoving) : command_of(upper(written));
     const std::vector<std::string_view> commands = command_names();
