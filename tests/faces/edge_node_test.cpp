@@ -57,12 +57,14 @@ struct Host {
         one.value = std::move(value);
         return one;
     }
-    void send(const std::string& topic, const Metric& one) {
-        const std::string payload = encode({.timestamp = one.timestamp, .metrics = {one}});
+    void send(const std::string& topic, const std::vector<Metric>& metrics) {
+        const std::string payload = encode({.timestamp = milliseconds(), .metrics = metrics});
         node.receive({.topic = topic, .payload = payload, .arrived = now()}, moment());
         run(100ms);
     }
-    void command(const Metric& one) { send("spBv1.0/nanoplc/DCMD/nanoplc/x", one); }
+    void send(const std::string& topic, const Metric& one) { send(topic, std::vector{one}); }
+    void command(const Metric& one) { command(std::vector{one}); }
+    void command(const std::vector<Metric>& metrics) { send("spBv1.0/nanoplc/DCMD/nanoplc/x", metrics); }
     std::size_t count(const std::string& kind) const {
         return static_cast<std::size_t>(std::count_if(sent.begin(), sent.end(), [&](const auto& message) {
             return message.first.find("/" + kind + "/") != std::string::npos;
@@ -95,6 +97,37 @@ TEST(EdgeNode, AStopIsTakenAfterACommandOfAHostWhoseClockIsAhead) {
     EXPECT_FALSE(host.runs());
     host.command(host.metric("Command/run", true));
     EXPECT_FALSE(host.runs()) << "it is older than the last one";
+}
+
+/// Hosts gather what is written into one message.
+TEST(EdgeNode, AStopIsTakenWhateverElseItsMessageHas) {
+    Host host;
+    const auto others = [&] {
+        return std::vector<std::vector<Metric>>{{host.metric("Command/run", true)},
+                                                {host.metric("Set Points/Speed", 60.0)},
+                                                {host.metric("Command/bogus", true)},
+                                                {host.metric("Command/run", false)}};
+    };
+    for (std::size_t i = 0; i < others().size(); ++i) {
+        for (const bool is_first : {false, true}) {
+            host.run(2ms);
+            host.command(host.metric("Command/run", true));
+            ASSERT_TRUE(host.runs()) << i;
+            std::vector<Metric> message = others()[i];
+            message.insert(is_first ? message.begin() : message.end(), host.metric("Command/stop", true));
+            host.command(message);
+            EXPECT_FALSE(host.runs()) << i << is_first;
+        }
+    }
+}
+
+TEST(EdgeNode, OfTwoCommandsThatAreNoStopNoneIsTaken) {
+    Options options = Host::all();
+    options.commands.push_back(gw::Command::step);
+    Host host(options);
+    host.command({host.metric("Command/run", true), host.metric("Command/step", true)});
+    EXPECT_FALSE(host.runs());
+    EXPECT_TRUE(host.has_said("more than one command in one message; nothing was done"));
 }
 
 TEST(EdgeNode, AnOldStopIsNotTaken) {

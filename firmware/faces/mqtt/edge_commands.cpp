@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "edge_node.h"
@@ -45,7 +46,7 @@ void EdgeNode::receive(const Incoming& message, const Moment& moment) {
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         const bool is_meant = message.topic == topic("DCMD", devices_[i].axis->name());
         // A dead device's axis may only not have answered for a while.
-        if (is_meant && (devices_[i].is_born || is_stop(i, *payload)))
+        if (is_meant && (devices_[i].is_born || stop_in(i, *payload) != nullptr))
             take_device_command(i, *payload, message, moment.milliseconds);
     }
 }
@@ -79,22 +80,28 @@ bool EdgeNode::is_too_late(Device& device, const Given& given, bool stops) {
     return false;
 }
 
-/// One command per message, or values of set-points, which are one change.
+/// One command per message, or values of set-points, which are one change. A stop is carried out whatever
+/// else the message has, which is then not done.
 void EdgeNode::take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
                                    std::uint64_t milliseconds) {
+    const auto given = [&](const Metric& metric) {
+        return Given{message, metric.timestamp.value_or(payload.timestamp.value_or(0)), milliseconds};
+    };
+    if (const Metric* stop = stop_in(index, payload)) return take_command(index, *stop, given(*stop));
     std::vector<const Metric*> values;
-    const Metric* command = nullptr;
+    std::vector<const Metric*> commands;
     for (const Metric& metric : payload.metrics) {
         if (metric.name.starts_with(kSetPoints) || set_point_of(index, metric) || is_of_recipe(index, metric))
             values.push_back(&metric);
-        else if (command == nullptr && is_true(metric))
-            command = &metric;
+        else if (is_true(metric))
+            commands.push_back(&metric);
     }
-    const Metric* first = values.empty() ? command : values.front();
-    if (first == nullptr) return refuse_what_is_none(index, payload);
-    const Given given{message, first->timestamp.value_or(payload.timestamp.value_or(0)), milliseconds};
-    if (values.empty()) return take_command(index, *command, given);
-    if (command == nullptr) return take_set_points(index, values, given);
+    if (values.empty() && commands.empty()) return refuse_what_is_none(index, payload);
+    if (commands.size() > 1)
+        return refuse(devices_[index], commands.front()->name.substr(0, kLongestName), Result::bad_value,
+                      "more than one command in one message; nothing was done");
+    if (values.empty()) return take_command(index, *commands.front(), given(*commands.front()));
+    if (commands.empty()) return take_set_points(index, values, given(*values.front()));
     refuse(devices_[index], "Set Points", Result::bad_value,
            "a command and values in one message; nothing was done");
 }
@@ -122,12 +129,14 @@ std::optional<gw::Command> EdgeNode::allowed_command(std::size_t index, const Me
     return std::nullopt;
 }
 
-bool EdgeNode::is_stop(std::size_t index, const Payload& payload) const {
-    const auto& all = payload.metrics;
-    return !all.empty() && std::all_of(all.begin(), all.end(), [&](const Metric& metric) {
-        const auto command = allowed_command(index, metric);
-        return command && is_true(metric) && faces::Command::of(*command, {}).is_stop();
-    });
+const Metric* EdgeNode::stop_in(std::size_t index, const Payload& payload) const {
+    constexpr std::array kStrongestFirst{gw::Command::safe, gw::Command::stop, gw::Command::hold};
+    for (const gw::Command wanted : kStrongestFirst) {
+        for (const Metric& metric : payload.metrics) {
+            if (is_true(metric) && allowed_command(index, metric) == wanted) return &metric;
+        }
+    }
+    return nullptr;
 }
 
 void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given& given) {

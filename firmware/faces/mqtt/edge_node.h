@@ -105,7 +105,8 @@ class EdgeNode {
     void take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
                              std::uint64_t milliseconds);
     std::optional<registers::gateway::Command> allowed_command(std::size_t index, const Metric& metric) const;
-    bool is_stop(std::size_t index, const Payload& payload) const;
+    /// The strongest permitted stop, safe or hold; null: none.
+    const Metric* stop_in(std::size_t index, const Payload& payload) const;
     void take_command(std::size_t index, const Metric& metric, const Given& given);
     void take_set_points(std::size_t index, const std::vector<const Metric*>& metrics, const Given& given);
     std::optional<std::size_t> set_point_of(std::size_t index, const Metric& metric) const;
