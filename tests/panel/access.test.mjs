@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { closeBrowser, examples, file, inStep, openPage, operate, painted, root, simulator } from "./machine.mjs";
+import { closeBrowser, examples, file, halt, inStep, openPage, operate, painted, root, simulator } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -59,7 +59,7 @@ for (const { name, ...options } of screens) {
     await page.click("#do-stop");
     await page.waitForFunction(() => document.getElementById("state-text").textContent.includes("stopped"));
     assert.deepEqual(await seriousFindings(page), []);
-    machine.child.kill("SIGSTOP"); // old values are read too
+    await halt(machine.child); // old values are read too
     await page.waitForFunction(() => document.body.classList.contains("old"));
     await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
     await page.waitForFunction(() => { // wherever one has scrolled to

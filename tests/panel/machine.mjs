@@ -1,7 +1,7 @@
 // The real programs and a real browser, for the tests beside it. run.py names the folders: ROOT, PROGRAMS.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -60,6 +60,17 @@ export function file(ending, text) {
   return path;
 }
 export const path = (name) => join(folder, name);
+
+/** Ends when all threads of the process stand: a signal takes its time, in which they go on. */
+export async function halt(child) {
+  child.kill("SIGSTOP");
+  const tasks = `/proc/${child.pid}/task`;
+  const stands = (task) => {
+    const stat = readFileSync(join(tasks, task, "stat"), "latin1");
+    return "Tt".includes(stat.slice(stat.lastIndexOf(")") + 2)[0]);
+  };
+  while (!readdirSync(tasks).every(stands)) await new Promise((done) => setTimeout(done, 5));
+}
 
 /** The simulator with an example, or a program of the test. `scenario`: text. */
 export function simulator(program, { scenario, port = 0, more = [], cwd } = {}) {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync, symlinkSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { Client, closeBrowser, file, hasText, inStep, openPage, operate, painted, textOf, withService } from "./machine.mjs";
+import { Client, closeBrowser, file, halt, hasText, inStep, openPage, operate, painted, textOf, withService } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -68,7 +68,7 @@ test("a stop that was not confirmed goes from the page once its axis is at rest,
     await painted(page);
     await page.selectOption("#axis", "y");
     await hasText(page, "#program", "FillAndCount");
-    motors[1].kill("SIGSTOP");
+    await halt(motors[1]);
     await hasText(page, "#fact-link", "down");
     await page.click("#do-stop");
     await hasText(page, "#notices", "y: stop: not confirmed");

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { Client, closeBrowser, examples, file, hasText, inStep, openPage, operate, painted, quietLine, simulator, textOf } from "./machine.mjs";
+import { Client, closeBrowser, examples, file, halt, hasText, inStep, openPage, operate, painted, quietLine, simulator, textOf } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -339,7 +339,7 @@ test("a program that is halted: data older than a second are shown as old", () =
   withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
     const page = await openPage(machine.url);
     await painted(page);
-    machine.child.kill("SIGSTOP");
+    await halt(machine.child);
     await hasText(page, "#link-bar", "what you see is old");
     machine.child.kill("SIGCONT");
     await painted(page);
@@ -351,7 +351,7 @@ test("who operates does so after a short halt of the program, and is not told th
     const page = await openPage(machine.url);
     await painted(page);
     await operate(page, machine.token);
-    machine.child.kill("SIGSTOP");
+    await halt(machine.child);
     await page.waitForTimeout(2500); // the page asks once a second to keep the seat
     machine.child.kill("SIGCONT");
     await painted(page);
@@ -368,7 +368,7 @@ test("a stop without an answer is told after a second, as the protocol asks of a
     const page = await openPage(machine.url);
     await painted(page);
     await page.clock.install();
-    machine.child.kill("SIGSTOP");
+    await halt(machine.child);
     await page.click("#do-stop");
     await page.clock.runFor(1000);
     assert.match(await textOf(page, "#notices"), /No answer to stop yet: the machine may still be running/);
@@ -384,7 +384,7 @@ test("what waited while the program was halted is not carried out, a stop is", (
     await client.ask({ do: "login", secret: machine.token });
     await client.ask({ do: "seat", axis });
     await client.ask({ do: "command", axis, name: "stop" });
-    machine.child.kill("SIGSTOP");
+    await halt(machine.child);
     const late = client.ask({ do: "command", axis, name: "run" });
     await new Promise((done) => setTimeout(done, 2000));
     machine.child.kill("SIGCONT");
@@ -392,7 +392,7 @@ test("what waited while the program was halted is not carried out, a stop is", (
     assert.equal((await late).code, 19);
     await new Promise((done) => setTimeout(done, 300));
     assert.equal((await client.ask({ do: "command", axis, name: "run" })).result, "done");
-    machine.child.kill("SIGSTOP");
+    await halt(machine.child);
     const stop = client.ask({ do: "command", axis, name: "stop" });
     await new Promise((done) => setTimeout(done, 2000));
     machine.child.kill("SIGCONT");
