@@ -18,6 +18,10 @@ std::uint32_t in_milliseconds(base::Microseconds time) {
     return (static_cast<std::uint32_t>(time.count()) + 999U) / 1000U;
 }
 
+constexpr std::uint32_t flag(StoreFlag bit, bool is_set) {
+    return is_set ? std::uint32_t{bit} : 0U;
+}
+
 }  // namespace
 
 [[gnu::noinline]] void GatewayRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out,
@@ -82,9 +86,10 @@ std::uint32_t GatewayRegisters::table_value(std::uint8_t reg) const {
         case STORED_MAX:
             return tables_.capacity();
         case STORE_FLAGS:
-            return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U) |
-                   (set_points_.were_damaged() ? 4U : 0U) |
-                   (gateway_.waits_for_first_run() ? 8U | store_traces_.flags() : 0U);
+            return flag(kTableDamaged, tables_.fell_back()) |
+                   flag(kSettingsDamaged, settings_.were_damaged()) |
+                   flag(kSetPointsDamaged, set_points_.were_damaged()) |
+                   (gateway_.waits_for_first_run() ? kFirstRunWanted | store_traces_.flags() : 0U);
         case COMMAND:
             return last_command_;
         case FORCE_IN:

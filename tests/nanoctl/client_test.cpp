@@ -480,7 +480,7 @@ TEST(Client, KeptForcesThatAreEndedElsewhereAreNotRenewed) {
     force();
     bench.master.pause(std::chrono::milliseconds{6'000});
     EXPECT_EQ(renew_forces(bench.gateway, kept).value_or(""),
-              "the forces were ended by themselves: nobody renewed them in time");
+              "the forces were ended by the gateway: they were not renewed in time");
 }
 
 TEST(Client, AStopWithAVirtualMotorTellsNoMotor) {

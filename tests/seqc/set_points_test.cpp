@@ -29,6 +29,12 @@ Compilation good(const std::string& source) {
     return compilation;
 }
 
+Decompilation decompiled(const Compilation& compilation) {
+    DecompileOptions options;
+    options.symbols = &compilation.symbols;
+    return decompile(compilation.table, options);
+}
+
 sequencer::Term term_of(const Compilation& compilation, std::size_t index) {
     return sequencer::decode(std::span(compilation.table).subspan(std::size_t{8} * index).first<8>());
 }
@@ -153,9 +159,7 @@ TEST(SetPoints, ThatCannotBeWrittenAgainAreNamedWithTheirRanges) {
                      "STEP S: TAKES SET_POINTS; IF IN0 THEN TIMER := Dwell; NEXT := W; END_IF END_STEP\n"
                      "STEP W: IF TIMER.Q THEN TIMER := T#500ms; NEXT := V; END_IF END_STEP\n"
                      "STEP V: IF TIMER.Q THEN NEXT := S; END_IF END_STEP\n"));
-    DecompileOptions options;
-    options.symbols = &compilation.symbols;
-    const Decompilation back = decompile(compilation.table, options);
+    const Decompilation back = decompiled(compilation);
     EXPECT_EQ(back.lost_set_points, std::vector<std::string>{"Dwell"});
     EXPECT_NE(back.text.find("//     SET_POINT Dwell := "), std::string::npos) << back.text;
     EXPECT_EQ(good(back.text).table, compilation.table);
@@ -163,9 +167,7 @@ TEST(SetPoints, ThatCannotBeWrittenAgainAreNamedWithTheirRanges) {
 
 TEST(SetPoints, ComeBackFromTheTableWithItsSymbols) {
     const Compilation compilation = good(kSaw);
-    DecompileOptions options;
-    options.symbols = &compilation.symbols;
-    const Decompilation back = decompile(compilation.table, options);
+    const Decompilation back = decompiled(compilation);
     const Compilation again = good(back.text);
     EXPECT_EQ(again.table, compilation.table);
     EXPECT_EQ(again.symbols.set_points, compilation.symbols.set_points);
@@ -182,9 +184,7 @@ TEST(SetPoints, ComeBackWithTheFewestDigits) {
                      "STEP S: TAKES SET_POINTS; IF IN0 THEN INIT(V1); NEXT := M; END_IF END_STEP\n"
                      "STEP M: ENTRY POSITION(Pitch); IF INPOS AND IN1 THEN NEXT := W; END_IF END_STEP\n"
                      "STEP W: ENTRY POSITION(Slot); IF INPOS AND NOT IN1 THEN NEXT := S; END_IF END_STEP\n"));
-    DecompileOptions options;
-    options.symbols = &compilation.symbols;
-    const Decompilation back = decompile(compilation.table, options);
+    const Decompilation back = decompiled(compilation);
     EXPECT_NE(back.text.find("Pitch AT P2 := 5.714 mm RANGE 1 mm .. 200 mm;"), std::string::npos)
         << back.text;
     EXPECT_NE(back.text.find("Slot AT P3 := 11.428 mm RANGE "), std::string::npos) << back.text;

@@ -11,9 +11,9 @@ namespace nplc::nanoctl {
 namespace {
 
 bool holds(std::uint32_t now, std::uint32_t kept) {
-    const std::uint32_t mask = kept >> 8 & 0xFF;
-    const std::uint32_t wanted = mask | mask << 8;
-    return (now & wanted) == (kept & wanted);
+    const auto forced = gw::Force::of_register(now);
+    const auto wanted = gw::Force::of_register(kept);
+    return (forced.mask & wanted.mask) == wanted.mask && wanted.over(forced.levels) == forced.levels;
 }
 
 /// A write that ends forces is logged as a force; only a safe command and the timeout are logged as an end.
@@ -26,7 +26,7 @@ std::string who_ended(GatewayClient& gateway) {
     const auto last = std::find_if(entries.rbegin(), entries.rend(), is_of_force);
     if (last != entries.rend() && static_cast<gw::Event>(last->event) == gw::Event::forces_ended) {
         constexpr std::uint16_t kBySilence = 1;
-        return last->detail == kBySilence ? "by themselves: nobody renewed them in time"
+        return last->detail == kBySilence ? "by the gateway: they were not renewed in time"
                                           : "by a safe command";
     }
     const Operator who = read_operator(gateway);

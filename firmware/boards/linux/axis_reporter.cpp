@@ -11,10 +11,6 @@
 namespace nplc::boards {
 namespace {
 
-/// A motor that has not answered for this time after the start is reported; one that is powered up together
-/// with the board needs some time.
-constexpr base::Milliseconds kFirstAnswer = StopMessages::kFirstAnswer;
-
 using registers::gateway::Event;
 
 bool is_of_recipe(Event event) {
@@ -57,7 +53,7 @@ void AxisReporter::start(base::Instant now) {
     drops_.restart();
     force_messages_.restart();
     stop_messages_.restart();
-    tell_silence_at_ = now + kFirstAnswer;
+    tell_silence_at_ = now + StopMessages::kFirstAnswer;
 }
 
 void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
@@ -102,10 +98,12 @@ void AxisReporter::report_drops(gateway::Controller& controller) {
 
 void AxisReporter::report_stop(gateway::Controller& controller, const faces::Sitter* holder,
                                base::Instant now) {
+    const bool is_unconfirmed = controller.sequence().stop_unconfirmed();
     std::array<std::uint8_t, 4> command{};
-    controller.registers().read(registers::gateway::COMMAND, command, now);
+    if (is_unconfirmed || stop_messages_.is_open())
+        controller.registers().read(registers::gateway::COMMAND, command, now);
     const auto message =
-        stop_messages_.look({.is_unconfirmed = controller.sequence().stop_unconfirmed(),
+        stop_messages_.look({.is_unconfirmed = is_unconfirmed,
                              .link_is_usable = motor::link_is_usable(controller.motor().link()),
                              .is_logged = std::exchange(stop_is_logged_, false),
                              .last_command = base::load_u32(command.data()),

@@ -54,8 +54,9 @@ std::optional<Mistake> moving_units(const Config& config) {
 
 std::vector<Mistake> plant_warnings(const Config& config) {
     std::vector<Mistake> warnings;
-    for (auto& warning : {clear_text(config.mqtt), moving_units(config)})
+    for (const auto& warning : {clear_text(config.mqtt), moving_units(config)}) {
         if (warning) warnings.push_back(*warning);
+    }
     return warnings;
 }
 

@@ -22,8 +22,8 @@ class StopMessages {
         bool is_unconfirmed;
         bool link_is_usable;
         bool is_logged;                    ///< the log has had its confirmation since the last look
-        std::uint32_t last_command;        ///< COMMAND
-        std::string_view operator_name{};  ///< empty: nobody
+        std::uint32_t last_command;        ///< COMMAND, of a stop that is open
+        std::string_view operator_name{};  ///< empty: none
     };
     struct Message : LogMessage {
         const char* event;  ///< field EVENT
@@ -32,6 +32,8 @@ class StopMessages {
     /// To be called with a new log.
     void restart() { *this = {}; }
     std::optional<Message> look(const Look& look, base::Instant now);
+    /// A stop is not confirmed, or how it ended has not been told: last_command counts.
+    bool is_open() const { return warn_at_.has_value(); }
     /// Latest time of the next look.
     base::Instant next() const;
 

@@ -16,11 +16,16 @@ using faces::Result;
 
 namespace {
 
-constexpr std::size_t kLongestName = 64;
-
 bool is_true(const Metric& metric) {
     const auto* flag = std::get_if<bool>(&metric.value);
     return flag != nullptr && *flag;
+}
+
+/// As the host wrote it.
+std::string shown_name(const Metric& metric) {
+    constexpr std::size_t kLongestName = 64;
+    return metric.name.empty() ? fmt::format("alias {}", metric.alias.value_or(0))
+                               : metric.name.substr(0, kLongestName);
 }
 
 std::optional<double> number_in(const Metric& metric) {
@@ -98,7 +103,7 @@ void EdgeNode::take_device_command(std::size_t index, const Payload& payload, co
     }
     if (values.empty() && commands.empty()) return refuse_what_is_none(index, payload);
     if (commands.size() > 1)
-        return refuse(devices_[index], commands.front()->name.substr(0, kLongestName), Result::bad_value,
+        return refuse(devices_[index], shown_name(*commands.front()), Result::bad_value,
                       "more than one command in one message; nothing was done");
     if (values.empty()) return take_command(index, *commands.front(), given(*commands.front()));
     if (commands.empty()) return take_set_points(index, values, given(*values.front()));
@@ -110,10 +115,8 @@ void EdgeNode::take_device_command(std::size_t index, const Payload& payload, co
 void EdgeNode::refuse_what_is_none(std::size_t index, const Payload& payload) {
     for (const Metric& metric : payload.metrics) {
         if (std::holds_alternative<bool>(metric.value)) continue;
-        const std::string name = metric.name.empty() ? fmt::format("alias {}", metric.alias.value_or(0))
-                                                     : metric.name.substr(0, kLongestName);
         return refuse(
-            devices_[index], name, Result::bad_value,
+            devices_[index], shown_name(metric), Result::bad_value,
             "neither a command with the value true, nor a set-point of the table; nothing was done");
     }
 }
@@ -141,10 +144,10 @@ const Metric* EdgeNode::stop_in(std::size_t index, const Payload& payload) const
 
 void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given& given) {
     Device& device = devices_[index];
-    const std::string name = metric.name.substr(0, kLongestName);
     const auto allowed = allowed_command(index, metric);
     if (!allowed || !device.client)
-        return refuse(device, name, Result::not_allowed, "it is none of the `commands` that [mqtt] allows");
+        return refuse(device, shown_name(metric), Result::not_allowed,
+                      "it is none of the `commands` that [mqtt] allows");
     const auto order = faces::Command::of(*allowed, given.message.arrived);
     if (is_too_late(device, given, order.is_stop()))
         return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late);
@@ -177,8 +180,8 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
     for (const Metric* metric : metrics) {
         const auto number = number_in(*metric);
         const auto place = set_point_of(index, *metric);
-        const std::string name = place ? fmt::format("{}{}", kSetPoints, record.values[*place].name)
-                                       : metric->name.substr(0, kLongestName);
+        const std::string name =
+            place ? fmt::format("{}{}", kSetPoints, record.values[*place].name) : shown_name(*metric);
         if (is_of_recipe(index, *metric)) {
             if (!options_.recipes || !device.client)
                 return refuse(device, name, Result::not_allowed, "`recipes` of [mqtt] does not allow it");

@@ -137,16 +137,11 @@ std::pair<Block, Status> identity_and_status(GatewayClient& gateway) {
     }
 }
 
-// STORE_FLAGS
-constexpr std::uint32_t kFirstRun = 8;
-constexpr std::uint32_t kStoreLost = 16;
-constexpr std::uint32_t kOfAnotherAxis = 32;
-
 std::string first_run_text(std::uint32_t flags) {
-    if ((flags & kFirstRun) == 0) return {};
-    if ((flags & kStoreLost) != 0)
+    if ((flags & gw::kFirstRunWanted) == 0) return {};
+    if ((flags & gw::kStoreLost) != 0)
         return "\nLOST: the store that the axis had; look at its table and settings: waits for `nanoctl run`";
-    if ((flags & kOfAnotherAxis) != 0)
+    if ((flags & gw::kStoreOfAnother) != 0)
         return "\nthe store of another axis, which the gateway's journal names; look at its table and "
                "settings: waits for `nanoctl run`";
     return "\nnew here: waits for a first run command, `nanoctl run`";
@@ -160,10 +155,11 @@ std::string store_text(const Status& status, std::uint32_t flags) {
     if (status.safe_reason == gw::SafeReason::no_store)
         return "\nNO STORE: it is locked, missing or not writable; the gateway's journal says why";
     std::string text;
-    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
-    if ((flags & 2) != 0)
+    if ((flags & gw::kTableDamaged) != 0)
+        text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
+    if ((flags & gw::kSettingsDamaged) != 0)
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
-    if ((flags & 4) != 0)
+    if ((flags & gw::kSetPointsDamaged) != 0)
         text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
     return text;
 }
@@ -205,12 +201,12 @@ void show_status(Session& session, const StatusOptions& options) {
                      {"stored_bytes", of(gw::STORED_BYTES)},
                      {"stored_crc32", of(gw::STORED_CRC)},
                      {"proof", digest ? digest::hex(*digest) : ""},
-                     {"table_damaged", (flags & 1) != 0},
-                     {"settings_damaged", (flags & 2) != 0},
-                     {"set_points_damaged", (flags & 4) != 0},
-                     {"waits_for_first_run", (flags & kFirstRun) != 0},
-                     {"store_lost", (flags & kStoreLost) != 0},
-                     {"store_of_another_axis", (flags & kOfAnotherAxis) != 0},
+                     {"table_damaged", (flags & gw::kTableDamaged) != 0},
+                     {"settings_damaged", (flags & gw::kSettingsDamaged) != 0},
+                     {"set_points_damaged", (flags & gw::kSetPointsDamaged) != 0},
+                     {"waits_for_first_run", (flags & gw::kFirstRunWanted) != 0},
+                     {"store_lost", (flags & gw::kStoreLost) != 0},
+                     {"store_of_another_axis", (flags & gw::kStoreOfAnother) != 0},
                      {"link_losses", count(gw::LINK_LOSSES)},
                      {"resent", count(gw::RESENT)},
                      {"orders", count(gw::ORDERS)},

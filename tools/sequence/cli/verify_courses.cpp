@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -153,21 +154,20 @@ const verify::Result* told_for(const verify::Report& report, const verify::Resul
                                const verify::Names& names, std::string& copies) {
     if (!result.step) return &result;
     const auto origin_of = [&](std::uint8_t step) { return names.copy_of[step].value_or(step); };
-    const verify::Result* first = nullptr;
+    std::vector<const verify::Result*> same;
     for (const verify::Result& other : report.results) {
-        const bool is_same = other.step && other.code == result.code && other.verdict == result.verdict &&
-                             other.allowed == result.allowed &&
-                             origin_of(*other.step) == origin_of(*result.step);
-        if (!is_same) continue;
-        const bool is_origin = *other.step == origin_of(*other.step);
-        if (first == nullptr || is_origin) first = &other;
+        if (other.step && other.code == result.code && other.verdict == result.verdict &&
+            other.allowed == result.allowed && origin_of(*other.step) == origin_of(*result.step))
+            same.push_back(&other);
     }
+    const auto origin = std::find_if(same.rbegin(), same.rend(), [&](const verify::Result* other) {
+        return *other->step == origin_of(*other->step);
+    });
+    const verify::Result* const first = origin == same.rend() ? same.front() : *origin;
     if (first != &result) return nullptr;
-    for (const verify::Result& other : report.results) {
-        const bool is_copy = &other != first && other.step && other.code == result.code &&
-                             other.verdict == result.verdict && other.allowed == result.allowed &&
-                             origin_of(*other.step) == origin_of(*result.step);
-        if (is_copy) copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other.step]);
+    for (const verify::Result* other : same) {
+        if (other != first)
+            copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other->step]);
     }
     return first;
 }

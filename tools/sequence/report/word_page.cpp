@@ -80,9 +80,9 @@ std::vector<std::string> values_named(std::string_view word) {
     return lines;
 }
 
-/// All words that page_of_word() knows.
 constexpr std::string_view kMoving = "moving";  // the language's only lower-case word
 
+/// All words that page_of_word() knows.
 std::vector<std::string_view> known_words() {
     std::vector<std::string_view> words = reference_words();
     words.push_back(kMoving);

@@ -31,7 +31,8 @@ struct WordPage {
 /// in any case.
 WordPage page_of_word(std::string_view written);
 
-/// "; nearest are WITHIN and INPOS", or a reference for a word of scenarios; empty if nothing is similar.
+/// "; did you mean 'WITHIN'?", "; nearest are WITHIN and INPOS", or a reference for a word of scenarios;
+/// empty if nothing is similar.
 std::string nearest_words(std::string_view wanted);
 
 }  // namespace nplc::seqc

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "registers/vocabulary.h"
+
 /// Whether a board may know what was where it now has a new store; only boards with files do.
 #ifndef NPLC_STORE_TRACES
 #define NPLC_STORE_TRACES 1
@@ -9,11 +11,11 @@
 
 namespace nplc::gateway {
 
-/// Why there is a store in which run was never commanded. The values are bits of STORE_FLAGS.
+/// Why there is a store in which run was never commanded: flags of STORE_FLAGS.
 enum class StoreTrace : std::uint8_t {
-    none = 0,      ///< the axis is new, as far as the board knows
-    lost = 16,     ///< the axis had another one
-    anothers = 32  ///< it is the store of another axis
+    none = 0,  ///< the axis is new, as far as the board knows
+    lost = registers::gateway::kStoreLost,
+    anothers = registers::gateway::kStoreOfAnother
 };
 
 class StoreTraces {

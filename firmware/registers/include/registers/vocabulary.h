@@ -488,6 +488,16 @@ enum StatusBit : std::uint32_t {
     kStopUnconfirmed = 1U << 19,  ///< the motor was told to stop and has not confirmed it: it may be moving
 };
 
+/// STORE_FLAGS. The last two only beside kFirstRunWanted, and on boards with files.
+enum StoreFlag : std::uint32_t {
+    kTableDamaged = 1U << 0,
+    kSettingsDamaged = 1U << 1,
+    kSetPointsDamaged = 1U << 2,
+    kFirstRunWanted = 1U << 3,  ///< run was never commanded with this store
+    kStoreLost = 1U << 4,       ///< the axis had another one
+    kStoreOfAnother = 1U << 5,  ///< it is the store of another axis
+};
+
 constexpr RunState run_state_of(std::uint32_t status) {
     return static_cast<RunState>(status & kRunState);
 }
