@@ -21,6 +21,9 @@ struct Cube {
 };
 
 Points points_of(Cube cube);
+inline Cube cube_of(Product product) {
+    return {static_cast<std::uint8_t>(product.value), static_cast<std::uint8_t>(product.care)};
+}
 
 /// Minimum number of cubes that together cover all of `need` and nothing outside `allowed` (which contains
 /// `need`). They may overlap. Exact up to a search limit; beyond it the best cover found.

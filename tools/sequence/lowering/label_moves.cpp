@@ -85,14 +85,14 @@ std::vector<LabelSearch::Candidate> LabelSearch::candidates(const State& state) 
             for (std::size_t i = 0; i < size; ++i) layer[i] = static_cast<Kinds>(layer[i] & ~below[i]);
         }
         for (std::size_t i = 0; i < size; ++i) {
-            if (layer[i] != 0) add_candidates(state, cubes_[i], zeros, layer[i], list);
+            if (layer[i] != 0) add_candidates(state, cube_of(cubes_[i]), zeros, layer[i], list);
         }
     }
     remove_dominated(list);
     return list;
 }
 
-void LabelSearch::add_candidates(const State& state, Ternary::Entry cube, std::size_t zeros, Kinds kinds,
+void LabelSearch::add_candidates(const State& state, Cube cube, std::size_t zeros, Kinds kinds,
                                  std::vector<Candidate>& list) {
     const Region region{cube.value, cube.care, static_cast<std::uint8_t>(zeros)};
     const CaseSet cases = set_of(region);

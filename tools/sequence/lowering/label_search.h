@@ -108,7 +108,7 @@ class LabelSearch {
     RemainingEffects cleared_by(Kinds kind) const;
     void survey(const State& state);
     std::vector<Candidate> candidates(const State& state);
-    void add_candidates(const State& state, Ternary::Entry cube, std::size_t zeros, Kinds kinds,
+    void add_candidates(const State& state, Cube cube, std::size_t zeros, Kinds kinds,
                         std::vector<Candidate>& list);
     CaseSet gains_of(const State& state, const CaseSet& cases, Kinds kind) const;
     std::size_t worth(const State& state, const CaseSet& cases, Kinds kind) const;

@@ -1,14 +1,14 @@
 #include <algorithm>
-#include <bit>
+#include <array>
 
 #include "lowering/cover.h"
-#include "lowering/least_list.h"
+#include "lowering/failures.h"
 #include "lowering/ternary.h"
 
 namespace nplc::seqc {
 namespace {
 
-constexpr int kSearchBound = 500;
+constexpr std::size_t kMostNodes = 1'000;  // over more variables than `kMostSmall`
 
 bool is_disjoint(const std::vector<Cube>& cubes) {
     Points seen;
@@ -45,7 +45,7 @@ class Tree {
 
     void solve(std::size_t index) {
         Node& node = nodes_[index];
-        const Ternary::Entry& cube = cubes_[index];
+        const Product& cube = cubes_[index];
         if (missing_[index] == 0) {
             node.leaves = 1;
             return;
@@ -66,7 +66,7 @@ class Tree {
         const Node& node = nodes_[index];
         if (node.leaves == 0) return;
         if (node.split == kLeaf) {
-            cubes.push_back({cubes_[index].value, cubes_[index].care});
+            cubes.push_back(cube_of(cubes_[index]));
             return;
         }
         collect(cubes_.half(index, node.split, true), cubes);
@@ -78,115 +78,93 @@ class Tree {
     std::vector<std::uint8_t> missing_;  // by cube: whether one of its points is not needed
 };
 
-/// Searches for fewer disjoint cubes than an initial solution, down to a lower bound.
+/// Searches for fewer disjoint cubes than a solution has, down to a lower bound.
 class PartitionSearch {
   public:
-    PartitionSearch(std::vector<Cube> first, std::size_t least, std::size_t variables)
-        : best_(std::move(first)), least_(least), last_((1U << variables) - 1U) {}
+    PartitionSearch(const Points& need, const Ternary& cubes)
+        : need_(need), cubes_(cubes), sets_(cubes.size()), points_(cubes.size()) {
+        for (std::size_t point = 0; point < std::size_t{1} << cubes.variables(); ++point)
+            sets_[cubes.point(point)].set(point);
+        cubes.unite(sets_.data());
+        for (const std::uint16_t index : cubes.largest_first()) {
+            if ((sets_[index] & ~need).any()) continue;
+            inside_.push_back(index);
+            for (std::size_t point = 0; point < kPoints; ++point) {
+                if (sets_[index].test(point)) points_[index].push_back(static_cast<std::uint8_t>(point));
+            }
+        }
+        find_independent();
+    }
 
-    std::vector<Cube> run(const Points& need) {
-        find_strangers(need);
-        std::vector<Cube> chosen;
-        search(need, chosen);
-        return best_;
+    void shorten(std::vector<Cube>& best, std::size_t least) {
+        while (best.size() > least && search(need_, inside_, best.size() - 1)) {
+            best.clear();
+            for (const std::size_t index : path_) best.push_back(cube_of(cubes_[index]));
+            path_.clear();
+            nodes_ = 0;
+        }
     }
 
   private:
-    /// Finds an independent set: points of which no two are in one cube inside `need`, so each needs its own
-    /// cube.
-    void find_strangers(const Points& need) {
-        for (unsigned a = 0; a <= last_; ++a) {
-            if (!need.test(a)) continue;
-            bool is_stranger = true;
-            for (unsigned b = 0; b < a && is_stranger; ++b) {
-                if (strangers_.test(b)) is_stranger = !lies_in(around(a, b), need);
-            }
-            if (is_stranger) strangers_.set(a);
+    using Indices = std::vector<std::uint16_t>;
+
+    /// Points of which no two are in one cube inside `need`: each needs its own cube.
+    void find_independent() {
+        for (std::size_t a = 0; a < kPoints; ++a) {
+            if (!need_.test(a)) continue;
+            const bool shares = std::any_of(inside_.begin(), inside_.end(), [&](std::size_t index) {
+                return sets_[index].test(a) && (sets_[index] & independent_).any();
+            });
+            if (!shares) independent_.set(a);
         }
     }
 
-    Cube around(unsigned a, unsigned b) const {
-        const unsigned care = ~(a ^ b) & last_;
-        return {static_cast<std::uint8_t>(a & care), static_cast<std::uint8_t>(care)};
-    }
-
-    Points cut(Cube cube) const {
-        Points points = points_of(cube);
-        return last_ + 1U == kPoints ? points : points & ~(Points().set() << (last_ + 1U));
-    }
-
-    bool lies_in(Cube cube, const Points& set) const { return (cut(cube) & ~set).none(); }
-
-    /// All cubes inside `open` that contain the point of `cube`, extended by `variable` and those above it.
-    void widen(Cube cube, const Points& points, unsigned variable, const Points& open,
-               std::vector<Cube>& cubes) const {
-        cubes.push_back(cube);
-        for (unsigned v = variable; 1U << v <= last_; ++v) {
-            const auto bit = static_cast<std::uint8_t>(1U << v);
-            const Points mirrored = (cube.value & bit) != 0 ? points >> bit : points << bit;
-            if ((mirrored & ~open).any()) continue;
-            const Cube wider{static_cast<std::uint8_t>(cube.value & ~bit),
-                             static_cast<std::uint8_t>(cube.care & ~bit)};
-            widen(wider, points | mirrored, v + 1, open, cubes);
+    /// The open point in the fewest of `cubes`.
+    std::size_t most_constrained(const Points& open, const Indices& cubes) const {
+        std::array<std::uint16_t, kPoints> held{};
+        for (const std::size_t index : cubes) {
+            for (const std::uint8_t point : points_[index]) ++held[point];
         }
-    }
-
-    /// Largest first.
-    std::vector<Cube> cubes_with(unsigned point, const Points& open) const {
-        std::vector<Cube> cubes;
-        const Cube alone{static_cast<std::uint8_t>(point), static_cast<std::uint8_t>(last_)};
-        widen(alone, Points().set(point), 0, open, cubes);
-        std::stable_sort(cubes.begin(), cubes.end(),
-                         [](Cube a, Cube b) { return std::popcount(a.care) < std::popcount(b.care); });
-        return cubes;
-    }
-
-    /// The open point with the fewest open neighbours: it is in few cubes.
-    unsigned most_constrained(const Points& open) const {
-        unsigned best = 0;
-        int fewest = 8;
-        for (unsigned point = 0; point <= last_; ++point) {
-            if (!open.test(point)) continue;
-            int neighbours = 0;
-            for (unsigned bit = 1; bit <= last_; bit *= 2) neighbours += open.test(point ^ bit) ? 1 : 0;
-            if (neighbours >= fewest) continue;
-            fewest = neighbours;
-            best = point;
+        std::size_t best = kPoints;
+        for (std::size_t point = 0; point < kPoints; ++point) {
+            if (open.test(point) && (best == kPoints || held[point] < held[best])) best = point;
         }
         return best;
     }
 
-    void search(const Points& open, std::vector<Cube>& chosen) {
-        if (open.none()) {
-            if (chosen.size() < best_.size()) best_ = chosen;
-            return;
+    bool is_exhausted() const { return cubes_.variables() > Ternary::kMostSmall && nodes_ > kMostNodes; }
+
+    /// `cubes`: those inside `open`.
+    bool search(const Points& open, const Indices& cubes, std::size_t most) {
+        if (open.none()) return true;
+        if (most < std::max<std::size_t>((open & independent_).count(), 1)) return false;
+        if (failures_.has(open, most) || is_exhausted()) return false;
+        ++nodes_;
+        const std::size_t point = most_constrained(open, cubes);
+        for (const std::size_t index : cubes) {
+            if (!sets_[index].test(point)) continue;
+            Indices left;
+            for (const std::uint16_t other : cubes) {
+                if ((sets_[other] & sets_[index]).none()) left.push_back(other);
+            }
+            path_.push_back(index);
+            if (search(open & ~sets_[index], left, most - 1)) return true;
+            path_.pop_back();
         }
-        if (best_.size() <= least_ || ++steps_ > kSearchBound) return;
-        const std::size_t further = std::max<std::size_t>((open & strangers_).count(), 1);
-        if (chosen.size() + further >= best_.size()) return;
-        for (Cube cube : cubes_with(most_constrained(open), open)) {
-            chosen.push_back(cube);
-            search(open & ~cut(cube), chosen);
-            chosen.pop_back();
-        }
+        if (!is_exhausted()) failures_.add(open, most);
+        return false;
     }
 
-    std::vector<Cube> best_;
-    std::size_t least_;
-    unsigned last_;
-    Points strangers_;
-    int steps_ = 0;
+    Points need_;
+    const Ternary& cubes_;
+    std::vector<Points> sets_;                       // by cube
+    std::vector<std::vector<std::uint8_t>> points_;  // by cube inside `need`
+    Indices inside_;
+    Points independent_;
+    Failures<Points> failures_;
+    std::vector<std::size_t> path_;
+    std::size_t nodes_ = 0;
 };
-
-/// The minimum over few variables; `least` is a lower bound.
-void shorten_small(std::vector<Cube>& cubes, const Points& need, std::size_t least, std::size_t variables) {
-    if (cubes.size() == least) return;
-    const auto set = static_cast<SmallSet>((need & Points(0xFFFFFFFFU)).to_ulong());
-    const auto fewer = least_partition(set, SmallCubes::of(variables, 0), cubes.size());
-    if (fewer.empty()) return;
-    cubes.clear();
-    for (const SmallCubes::Entry* cube : fewer) cubes.push_back({cube->value, cube->care});
-}
 
 }  // namespace
 
@@ -194,16 +172,13 @@ std::vector<Cube> disjoint_cover(const Points& need) {
     if (need.none()) return {};
     std::vector<Cube> overlapping = minimal_cover(need, need);
     if (is_disjoint(overlapping)) return overlapping;
-    const Variables variables({&need});
+    const Variables<kPoints> variables({&need});
     const Points narrow = variables.narrowed(need);
-    std::vector<Cube> cubes = Tree(narrow, variables.count()).leaves();
-    if (variables.count() <= SmallCubes::kMostVariables) {
-        shorten_small(cubes, narrow, overlapping.size(), variables.count());
-    } else if (cubes.size() > overlapping.size()) {
-        cubes = PartitionSearch(std::move(cubes), overlapping.size(), variables.count()).run(narrow);
-    }
-    for (Cube& cube : cubes) cube = variables.widened(cube);
-    return cubes;
+    std::vector<Cube> parts = Tree(narrow, variables.count()).leaves();
+    if (parts.size() > overlapping.size())
+        PartitionSearch(narrow, Ternary::of(variables.count())).shorten(parts, overlapping.size());
+    for (Cube& part : parts) part = cube_of(variables.widened({part.value, part.care}));
+    return parts;
 }
 
 }  // namespace nplc::seqc

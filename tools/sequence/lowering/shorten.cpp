@@ -80,19 +80,19 @@ const Behaviour* only_switch(const ReducedStep& error_branch) {
 /// The terms of a reduced step that is one step change over few variables; empty if there are none of fewer.
 std::vector<LoweredTerm> least_switch(const ReducedStep& error_branch, std::size_t fewer_than) {
     const Behaviour* wanted = only_switch(error_branch);
-    if (wanted == nullptr || error_branch.bits.size() > SmallCubes::kMostVariables) return {};
+    if (wanted == nullptr || error_branch.bits.size() > Ternary::kMostSmall) return {};
     SmallSet set = 0;
     for (std::size_t c = 0; c < error_branch.cases(); ++c)
         set |= &error_branch.at(c) == wanted ? SmallSet{1} << c : 0;
-    const SmallCubes& cubes =
-        SmallCubes::of(error_branch.bits.size(), error_branch.bits.size() - error_branch.inputs);
+    const Ternary& cubes =
+        Ternary::of(error_branch.bits.size(), error_branch.bits.size() - error_branch.inputs);
     std::vector<LoweredTerm> terms;
     for (const ListedCube& listed : least_list(set, cubes, fewer_than)) {
         const std::size_t inputs = (std::size_t{1} << error_branch.inputs) - 1;
         PlacedTerm term;
-        term.region = {static_cast<std::uint8_t>(listed.cube->value & inputs),
-                       static_cast<std::uint8_t>(listed.cube->care & inputs),
-                       static_cast<std::uint8_t>(listed.cube->value >> error_branch.inputs)};
+        term.region = {static_cast<std::uint8_t>(listed.cube.value & inputs),
+                       static_cast<std::uint8_t>(listed.cube.care & inputs),
+                       static_cast<std::uint8_t>(listed.cube.value >> error_branch.inputs)};
         term.next = listed.in ? wanted->next : error_branch.step->number;
         term.output_byte = listed.in ? wanted->output_byte() : error_branch.step->outputs;
         terms.push_back(lowered(term, error_branch));
