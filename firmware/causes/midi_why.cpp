@@ -170,7 +170,7 @@ constexpr Rule<MidiFacts> kDrive[] = {
     {"drive_bad_value", stops, [](M m) { return m.has_fault(DriveFault::bad_value); },
      "The sequence gave an order that it cannot do: {limitation}.", "", "Change the program."},
     {"drive_jumped", stops, [](M m) { return m.has_fault(DriveFault::jumped); },
-     "Its position jumped in mid-motion: another master, or a hand.", "POSITION",
+     "Its position jumped in mid-motion: a load that drags it, another master, or a hand.", "POSITION",
      "Let the sequence find the origin again; {acknowledge}."},
     {"under_voltage", hinders, [](M m) { return m.has(midi::kUnderVoltage); },
      "The supply voltage is too low.", "SUPPLY", "Raise it; below 19 V the module switches itself off."},

@@ -28,8 +28,9 @@ std::string_view text_of(MidiFault fault) {
                    "line, and "
                    "the position";
         case MidiFault::jumped:
-            return "the MIDI drive's position jumped in mid-motion: look for another master that has set its "
-                   "origin (0Bh), and let the sequence find the origin again";
+            return "the MIDI drive's position jumped in mid-motion: look for a load that drags the shaft, "
+                   "and "
+                   "for another master that has set its origin (0Bh); let the sequence find the origin again";
         case MidiFault::bad_value:
             return "an order is not for a MIDI drive";
         case MidiFault::unreadable:

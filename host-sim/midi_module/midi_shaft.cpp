@@ -6,7 +6,6 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::int64_t kFraction = 1 << 20;
 /// R: friction as a share of the holding torque, as for the virtual JVL motors; slows down a coasting shaft.
 constexpr std::int64_t kFriction = 5, kWhole = 1'023;
 
@@ -50,7 +49,7 @@ std::int32_t MidiShaft::drag(std::optional<std::int32_t> torque) {
         slow_down();
     } else {
         const std::int64_t gain = full_acceleration_ * beyond * kFraction / imax_ / kDragSteps / kDragSteps;
-        speed_ += load_ > 0 ? gain : -gain;
+        speed_ = std::clamp(speed_ + (load_ > 0 ? gain : -gain), -fastest_, fastest_);
     }
     rest_ += speed_;
     const std::int64_t whole = rest_ / kFraction;

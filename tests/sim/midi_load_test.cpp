@@ -109,6 +109,26 @@ TEST(MidiLoad, WithPowerOffNothingHolds) {
     EXPECT_EQ(bench->position(), held);
 }
 
+// 3537 rev/s^2 for the whole holding torque would be 212,000 rpm after a second; the virtual motors' limit is
+// 31,250 rpm.
+TEST(MidiLoad, AFreeShaftTurnsNoFasterThanTheVirtualMotorsDo) {
+    for (const midi::Model model : {midi::Model::mac34_1, midi::Model::mac23}) {
+        for (const int direction : {1, -1}) {
+            MidiBench bench(model);
+            const double per_second = 31'250 / 60.0 * midi::facts_of(model).increments_per_rev;
+            bench->set_load(direction * kWhole);
+            bench.pass(seconds{1});
+            const std::int64_t after_1_s = bench->shaft();
+            bench.pass(seconds{1});
+            const std::int64_t after_2_s = bench->shaft();
+            EXPECT_NEAR(static_cast<double>(direction * (after_2_s - after_1_s)), per_second, 2);
+            bench->power_off();
+            bench.pass(seconds{1});
+            EXPECT_NEAR(static_cast<double>(direction * (bench->shaft() - after_2_s)), per_second, 2);
+        }
+    }
+}
+
 // 240 rpm are 40,000 increments a second (period 48000 / 240 = 200). R: friction is 5 of 1023 of the holding
 // torque, which is 3537 rev/s^2 = 35.4e6 increments/s^2: 172,874 increments/s^2. It stands after 0.231 s,
 // 40,000^2 / 2 / 172,874 = 4,628 increments farther.

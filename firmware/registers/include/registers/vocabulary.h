@@ -267,7 +267,9 @@ constexpr std::string_view name_of(DriveFault fault) {
          {bad_value, "an order that it cannot do"},
          {unreadable, "its answers cannot be read"},
          {several, "several drives answer to its address"},
-         {jumped, "its position jumped in mid-motion: another master, or a hand; find the origin again"}});
+         {jumped,
+          "its position jumped in mid-motion: a load that drags it, another master, or a hand; find the "
+          "origin again"}});
 }
 
 /// Values of COMMAND.

@@ -10,9 +10,13 @@ namespace nplc::sim {
 class MidiShaft {
   public:
     static constexpr int kDragSteps = 4'000;  ///< per second: update rate of a slipping shaft
+    /// rpm. R: no manual has a limit of a shaft that slips; the virtual JVL motors' own.
+    static constexpr int kFastest = 31'250;
 
     MidiShaft(std::int32_t increments_per_rev, std::uint8_t imax)
-        : full_acceleration_(kFullAcceleration * increments_per_rev), imax_(imax) {}
+        : full_acceleration_(kFullAcceleration * increments_per_rev),
+          fastest_(std::int64_t{kFastest} * increments_per_rev * kFraction / 60 / kDragSteps),
+          imax_(imax) {}
 
     /// Increments since it was built.
     std::int64_t turned() const { return turned_; }
@@ -46,9 +50,12 @@ class MidiShaft {
     /// and 9 Nm / 4.05e-4 kg m^2 of a MAC34-2 are the same (003 §III). R: of a MAC23 too.
     static constexpr std::int64_t kFullAcceleration = 3'537;
 
+    static constexpr std::int64_t kFraction = 1 << 20;
+
     void slow_down();
 
     std::int64_t full_acceleration_;  // increments a second^2
+    std::int64_t fastest_;            // as speed_
     std::int32_t imax_;
     std::int64_t turned_ = 0;
     std::optional<std::int64_t> low_, high_;
