@@ -13,13 +13,13 @@ constexpr const char* kHelp =
 
 ControlPort::Answer carry_out(std::string_view line, const Names& names,
                               const std::function<std::string()>& status,
-                              const std::function<void(Actions)>& act) {
+                              const std::function<std::string(Actions)>& act) {
     if (line == "status") return {.text = status()};
     if (line == "help") return {.text = kHelp};
     ParsedActions parsed = parse_actions(line, names);
     if (!parsed.mistake.empty()) return {false, parsed.mistake};
-    act(std::move(parsed.actions));
-    return {};
+    const std::string why = act(std::move(parsed.actions));
+    return {.text = why.empty() ? std::string() : "ok, but nothing follows: " + why};
 }
 
 }  // namespace nplc::sim

@@ -21,11 +21,15 @@ void PulseInput::configure(registers::Model model, std::int32_t cntrl_bits, std:
     fast_ = set(kHiClk, kNoFilt);
 }
 
-int PulseInput::quarters(PulseFormat generator, std::int64_t counts_per_second) const {
+bool PulseInput::filters(PulseFormat generator, std::int64_t counts_per_second) const {
     constexpr std::int64_t kFast = 1'000'000, kSlow = 31'000;  // Hz
     const bool four_a_period = generator == PulseFormat::quadrature;
-    const std::int64_t frequency = std::abs(counts_per_second) / (four_a_period ? 4 : 1);
-    if (!on_ || frequency > (fast_ ? kFast : kSlow)) return 0;
+    return std::abs(counts_per_second) / (four_a_period ? 4 : 1) > (fast_ ? kFast : kSlow);
+}
+
+int PulseInput::quarters(PulseFormat generator, std::int64_t counts_per_second) const {
+    if (!on_ || filters(generator, counts_per_second)) return 0;
+    const bool four_a_period = generator == PulseFormat::quadrature;
     const int sign = inverted_ ? -1 : 1;
     if (generator == format_) return 4 * sign;
     return four_a_period ? sign : 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,8 @@ class Rack {
     /// EndlessRules.
     void play(const Scenario& scenario, const Names& names) { stage_.emplace(motor(0), scenario, names); }
 
-    /// Adds these actions from now on; after play().
-    void also(Actions actions) { stage_->also(std::move(actions), now_); }
+    /// Adds these actions from now on; after play(). Why nothing follows from them, if so.
+    std::string also(Actions actions) { return stage_->also(std::move(actions), now_); }
 
     Time now() const { return now_; }
     /// A client's bytes wait for the line to be free; beyond 64 KiB they are lost.

@@ -73,7 +73,7 @@ class RackService final : public VirtualDevices {
         control_.serve([this](std::string_view line) {
             return carry_out(
                 line, names_, [this] { return status(); },
-                [this](Actions actions) { rack_.also(std::move(actions)); });
+                [this](Actions actions) { return rack_.also(std::move(actions)); });
         });
         try {
             rack_.advance(to);

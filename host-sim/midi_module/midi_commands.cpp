@@ -102,7 +102,7 @@ bool MidiModule::move(std::uint8_t number, std::uint32_t data) {
             armed_ = true;
             return true;
         case midi::SYNC:
-            return start_prepared();
+            return sync();
         case midi::GO_TO:
         case midi::GO_TO_ZERO:
             motion_.go_to(number == midi::GO_TO ? static_cast<std::int32_t>(data) : 0);
@@ -136,7 +136,7 @@ bool MidiModule::prepare(std::uint8_t number, std::uint32_t data) {
 }
 
 /// R: without a prepared command there is no effect, and no refusal.
-bool MidiModule::start_prepared() {
+bool MidiModule::sync() {
     if (!is_on() || !prepared_ || deaf()) return true;
     const MidiMotion::Segment prepared = *prepared_;
     prepared_.reset();

@@ -73,7 +73,8 @@ void MidiCanEnd::receive(const base::CanFrame& frame) {
         case Ask::none:
             return;
         case Ask::sync:
-            return module_.sync();
+            module_.sync();
+            return;
         case Ask::configure:
         case Ask::set_address:
         case Ask::operate:

@@ -130,7 +130,7 @@ class ModuleService : public VirtualDevices {
         control_.serve([this, now](std::string_view line) {
             return carry_out(
                 line, names_, [this] { return status(); },
-                [this, now](Actions actions) { stage_->also(std::move(actions), now); });
+                [this, now](Actions actions) { return stage_->also(std::move(actions), now); });
         });
         stage_->observe(now);
     }

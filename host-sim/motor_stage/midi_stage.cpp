@@ -1,9 +1,11 @@
 #include "sim/midi_stage.h"
 
 #include <cmath>
+#include <utility>
 
 #include "registers/midi.h"
 #include "registers/scale.h"
+#include "sim/without_effect.h"
 
 namespace nplc::sim {
 namespace {
@@ -78,6 +80,12 @@ std::int64_t increments_of(midi::Model model, std::int64_t counts) {
 
 bool act(MidiModule& module, const action::OnMotor& what) {
     return std::visit(ModuleActor{module}, what);
+}
+
+std::string ModuleAlone::also(Actions actions, Time now) {
+    std::string why = without_effect(module_, module_.is_on(), actions);
+    runner_.also(std::move(actions), now);
+    return why;
 }
 
 void ModuleAlone::observe(Time now) {

@@ -1,8 +1,10 @@
 #include "sim/motor_alone.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "registers/mac.h"
+#include "sim/without_effect.h"
 
 namespace nplc::sim {
 namespace {
@@ -31,6 +33,12 @@ MotorAlone::MotorAlone(MacMotor& motor, const Scenario& scenario, const Names& n
     : motor_(motor), runner_(scenario, names, *this) {
     if (names.free_pins && !is_mac800(motor.model()) && has_pulses(scenario)) free_the_pins(motor);
     store(motor, scenario.registers);
+}
+
+std::string MotorAlone::also(Actions actions, Time now) {
+    std::string why = without_effect(motor_, powered_, actions);
+    runner_.also(std::move(actions), now);
+    return why;
 }
 
 void MotorAlone::observe(Time now) {

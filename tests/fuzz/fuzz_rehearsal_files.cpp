@@ -64,7 +64,10 @@ void bench_line(std::string_view text) {
     bool is_done = false;
     const sim::ControlPort::Answer answer = sim::carry_out(
         text.substr(0, text.find('\n')), names(), [] { return std::string("stands"); },
-        [&](const sim::Actions&) { is_done = true; });
+        [&](const sim::Actions&) {
+            is_done = true;
+            return std::string();
+        });
     require(answer.done || (!is_done && !answer.text.empty()));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/mactalk.h"
+#include "sim/midi_stage.h"
 
 namespace nplc::sim {
 namespace {
@@ -90,6 +91,103 @@ TEST(Rack, WithoutFastMacPulsesDriveAGearMode) {
     EXPECT_EQ(rack.motor(0).read(registers::V_EXT), 0);
     EXPECT_EQ(rack.motor(0).v_ist(), 0);
     EXPECT_TRUE(rack.received_fastmac().empty());
+}
+
+std::string said(Rack& rack, const std::string& line, const Names& names) {
+    ParsedActions parsed = parse_actions(line, names);
+    EXPECT_TRUE(parsed.mistake.empty()) << parsed.mistake;
+    std::string why = rack.also(std::move(parsed.actions));
+    rack.advance(rack.now() + std::chrono::milliseconds{100});
+    return why;
+}
+
+// What a line of the control port does nothing for. 004: HW_SETUP is 39, NOFILT its bit 5; MODE_REG 2 is
+// P_MODE, 3 GP_MODE.
+TEST(Rack, PulsesThatTurnNothingAreSaid) {
+    const Names names = alone(Model::mac800, true);
+    const Scenario nothing;
+    Rack rack({.units = {{Model::mac800, 1}}});
+    rack.play(nothing, names);
+    const auto turned = [&rack] { return rack.motor(0).plant().counts(); };
+    EXPECT_EQ(said(rack, "motor pulses 5000 per s", names),
+              "the shaft does not follow in INIT, V_EXT counts them; set a gear mode, such as GP_MODE");
+    rack.motor(0).write(registers::MODE_REG, 2);
+    EXPECT_EQ(
+        said(rack, "motor pulses 5000 per s", names),
+        "the shaft does not follow in P_MODE, and V_EXT does not count; set a gear mode, such as GP_MODE");
+    EXPECT_EQ(turned(), 0);
+    rack.motor(0).write(registers::MODE_REG, 3);
+    EXPECT_EQ(said(rack, "motor pulses 200000 per s", names),
+              "a filter takes more than 124,000 per s; set NOFILT of HW_SETUP");
+    EXPECT_EQ(turned(), 0);
+    EXPECT_NE(said(rack, "motor steps 5000 per s", names).find("XPRINP of HW_SETUP"), std::string::npos);
+    EXPECT_EQ(said(rack, "motor pulses 5000 per s", names), "");
+    EXPECT_NEAR(static_cast<double>(turned()), 500, 50) << "0.1 s";
+    EXPECT_EQ(said(rack, "motor pulses 0 per s", names), "");
+    rack.motor(0).write(registers::GEARF1, 0);
+    EXPECT_EQ(said(rack, "motor pulses 5000 per s", names), "GEARF1 is 0: the shaft does not follow");
+}
+
+TEST(Rack, PinsThatFastMacHasAreSaid) {
+    const Names names = alone(Model::mac140, false);
+    const Scenario nothing;
+    Rack rack({});
+    rack.play(nothing, names);
+    rack.motor(0).write(registers::MODE_REG, 3);
+    EXPECT_EQ(said(rack, "motor pulses 5000 per s", names).substr(0, 42),
+              "FastMAC has the pins of the pulse input (C");
+    EXPECT_EQ(rack.motor(0).plant().counts(), 0);
+}
+
+TEST(Rack, WhatElseDoesNothingIsSaid) {
+    const Names names = alone(Model::mac800, true);
+    const Scenario nothing;
+    Rack rack({.units = {{Model::mac800, 1}}});
+    rack.play(nothing, names);
+    EXPECT_EQ(said(rack, "motor power on", names), "it has its supply already");
+    EXPECT_EQ(said(rack, "motor stop none", names), "there is no stop");
+    EXPECT_EQ(said(rack, "log \"here\"", names), "there is no timeline here");
+    EXPECT_EQ(said(rack, "motor brake 300", names), "") << "it is passive";
+    rack.motor(0).write(registers::MODE_REG, 2);
+    EXPECT_EQ(said(rack, "motor brake 300", names), "the brake is open while the motor is in P_MODE");
+    EXPECT_EQ(said(rack, "motor power off", names), "");
+    for (const char* line :
+         {"motor power off", "motor error", "motor encoder broken", "motor pulses 5000 per s",
+          "motor supply 300 V", "motor temperature 40", "motor analogue 5 V"})
+        EXPECT_EQ(said(rack, line, names), "it has no supply (motor power off)") << line;
+    EXPECT_EQ(said(rack, "motor load 100", names), "") << "it turns the free shaft";
+    EXPECT_EQ(said(rack, "motor power on, motor error", names), "");
+    EXPECT_EQ(said(rack, "after 1 s motor power on", names), "") << "not now";
+}
+
+// 003 §IV: stops and reference act as far as they are enabled, 03h and 07h.
+TEST(ModuleAlone, WhatDoesNothingIsSaid) {
+    Names names;
+    names.drive = registers::find_drive("MAC34-1");
+    names.motor_alone = true;
+    MidiModule module(MidiModule::Model::mac34_1);
+    ModuleAlone stage(module);
+    Time now{0};
+    const auto told = [&](const std::string& line) {
+        ParsedActions parsed = parse_actions(line, names);
+        EXPECT_TRUE(parsed.mistake.empty()) << parsed.mistake;
+        std::string why = stage.also(std::move(parsed.actions), now);
+        stage.observe(now);
+        now += std::chrono::milliseconds{1};
+        module.advance(now);
+        return why;
+    };
+    EXPECT_EQ(told("motor upper_stop on"), "the stop inputs are not enabled (03h, END_STOPS 1)");
+    EXPECT_EQ(told("motor reference on below 0 rev"),
+              "the reference input is not enabled (07h, REFERENCE 1)");
+    EXPECT_EQ(told("motor upper_stop off"), "");
+    ASSERT_TRUE(module.execute(registers::midi::END_STOPS, 0, 1U));
+    EXPECT_EQ(told("motor lower_stop on"), "");
+    EXPECT_NE(told("cancel motor"), "");
+    EXPECT_EQ(told("motor security on for 1 s"), "");
+    EXPECT_EQ(told("motor power off"), "");
+    EXPECT_EQ(told("motor error"), "it has no supply (motor power off)");
+    EXPECT_EQ(told("motor load 100"), "") << "it turns the free shaft";
 }
 
 TEST(Rack, BesideFastMacPulsesAreRefusedWithTheReason) {

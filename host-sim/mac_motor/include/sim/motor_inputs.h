@@ -25,6 +25,8 @@ class PulseInput {
     void configure(registers::Model model, std::int32_t cntrl_bits, std::int32_t hw_setup);
 
     bool on() const { return on_; }
+    /// So fast that nothing passes the filter.
+    bool filters(PulseFormat generator, std::int64_t counts_per_second) const;
     /// Counts of V_EXT per count of the generator: this over four, with the sign. 0: none. R: above the
     /// filter's frequency nothing passes; quadrature on an input for pulses counts one edge of four, pulses
     /// on one for quadrature count back and forth.

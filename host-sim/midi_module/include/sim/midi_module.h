@@ -52,8 +52,8 @@ class MidiModule {
     std::optional<std::uint32_t> answer(std::uint8_t query, std::uint8_t sub_index) const;
     /// The last 10,000 commands carried out, oldest first.
     const std::deque<MidiAction>& actions() const { return actions_; }
-    /// SYNC on the bus: like the command, without an answer.
-    void sync() { start_prepared(); }
+    /// SYNC on the bus, and the command. False: nothing was prepared, or a fault does not allow it.
+    bool sync();
     /// A restart was commanded; the line's end calls restart() once the answer has been sent.
     bool wants_restart() const { return wants_restart_; }
     void restart();
@@ -94,6 +94,8 @@ class MidiModule {
     bool is_can() const { return options_.can; }
     std::uint8_t imax() const { return options_.imax; }  ///< reference of the torque values
     bool is_on() const { return supply_.is_on(); }
+    /// 07h: the reference input sets the position to 0.
+    bool reference_enabled() const { return reference_enabled_; }
     std::int32_t position() const { return motion_.position(); }
     /// Increments that the shaft has actually turned, independent of the position's origin.
     std::int64_t shaft() const { return motion_.shaft().turned(); }
@@ -133,7 +135,6 @@ class MidiModule {
     bool set_parameter(std::uint8_t number, std::uint32_t data);
     bool move(std::uint8_t number, std::uint32_t data);
     bool prepare(std::uint8_t number, std::uint32_t data);
-    bool start_prepared();
     void drop_prepared();
     bool run(std::uint32_t data);
 

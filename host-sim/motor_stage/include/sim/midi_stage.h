@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
+#include <string>
 
 #include "sim/midi_module.h"
 #include "sim/scenario_runner.h"
@@ -21,8 +21,8 @@ class ModuleAlone final : private Stage {
     /// `module` must outlive this.
     explicit ModuleAlone(MidiModule& module) : module_(module), runner_(nothing_, names_, *this) {}
 
-    /// Adds actions from now on; they start at the next observe().
-    void also(Actions actions, Time now) { runner_.also(std::move(actions), now); }
+    /// Adds actions from now on; they start at the next observe(). Returns without_effect() of them.
+    std::string also(Actions actions, Time now);
     /// To be called regularly: carries out due actions.
     void observe(Time now);
 

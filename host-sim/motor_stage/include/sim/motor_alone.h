@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <string>
 
 #include "sim/mac_motor.h"
 #include "sim/motor_stage.h"
@@ -18,8 +18,8 @@ class MotorAlone final : private Stage {
     bool powered() const { return powered_; }
     /// Time of the scenario's next event.
     std::optional<Time> next_due() const { return runner_.next_due(); }
-    /// Adds actions from now on; they start at the next observe().
-    void also(Actions actions, Time now) { runner_.also(std::move(actions), now); }
+    /// Adds actions from now on; they start at the next observe(). Returns without_effect() of them.
+    std::string also(Actions actions, Time now);
     /// To be called after each sample, and when due. Throws EndlessRules.
     void observe(Time now);
 
