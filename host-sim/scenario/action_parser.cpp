@@ -44,6 +44,11 @@ Actions ActionParser::actions() {
     do {
         if (reader_.take("after")) after += reader_.duration("a time after after");
         action(list, after);
+        if (reader_.is("for"))
+            reader_.refuse_next(
+                "for takes back an input, line cut, motor power off and a MIDI module's inputs only; write "
+                "what "
+                "follows, such as motor load 500, after 200 ms motor load 0");
     } while (reader_.take(","));
     return list;
 }
@@ -51,8 +56,7 @@ Actions ActionParser::actions() {
 void ActionParser::action(Actions& list, Time after) {
     const bool is_motors = reader_.is("motor") || reader_.is("cancel") || reader_.is("log");
     if (conditions_.names().motor_alone && !is_motors)
-        reader_.refuse_next(
-            "here is the motor alone; write what happens to it, such as motor pulses 5000 per s");
+        reader_.refuse_next("here is the motor alone; write what happens to it, such as motor load 500");
     if (reader_.is(":=", 1)) return set_input(list, after);
     if (reader_.take("pulse")) return pulse(list, after);
     if (reader_.take("toggle"))

@@ -248,7 +248,9 @@ double ConditionParser::length() {
 
 std::int64_t ConditionParser::place() {
     constexpr double kFarthest = 1e9;
-    const double counts = measure("a place, such as -2 rev or 500 counts", Value::Kind::shaft).value;
+    const Measure place = measure("a place, such as -2 rev or 500 counts", Value::Kind::shaft);
+    want_unit(Value::Kind::shaft, place);
+    const double counts = place.value;
     if (counts < -kFarthest || counts > kFarthest) {
         reader_.refuse("a place is at most 1000000000 counts away; write a nearer one");
     }

@@ -95,7 +95,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         at 4 s motor power off, after 1 s motor power on
         at 4 s motor load -500
         motor brake 300, after 1 s motor brake 0
-        at 4 s motor stop below -2 rev, after 1 s motor stop above 8192 spring 5000 per rev
+        at 4 s motor stop below -2 rev, after 1 s motor stop above 8192 counts spring 5000 per rev
         at 4 s motor stop none
         at 4 s motor sensor on below -1 rev
         motor analogue 0 V
@@ -281,6 +281,16 @@ TEST(ScenarioParser, MistakesInUnits) {
     for (const char* with : {"P_IST = 0", "V_IST > 0", "P_IST = 0 +- 1 mm", "P_IST = 5 +- 1 counts",
                              "COUNTER = 5", "TORQUE > 5"})
         EXPECT_TRUE(parse(std::string("expect ") + with).mistakes.empty()) << with;
+    EXPECT_EQ(
+        at_column("at 1 s motor load 500 for 200 ms"),
+        "23: for takes back an input, line cut, motor power off and a MIDI module's inputs only; write what "
+        "follows, such as motor load 500, after 200 ms motor load 0");
+    EXPECT_EQ(at_column("motor stop above 5"),
+              "18: 5 of what? The program has a SCALE; write counts, rev or mm behind it");
+    EXPECT_EQ(at_column("motor sensor on below -2.5"),
+              "24: -2.5 of what? The program has a SCALE; write counts, rev or mm behind it");
+    EXPECT_TRUE(parse("motor stop above 0, motor stop below -1 rev").mistakes.empty());
+    EXPECT_TRUE(parse_scenario("motor stop above 500", "x.scn", Names{}).mistakes.empty());
     EXPECT_TRUE(parse_scenario("expect P_IST > 100", "x.scn", Names{}).mistakes.empty());
     const auto scaleless = parse_scenario("motor stop above 80 mm", "x.scn", Names{});
     ASSERT_EQ(scaleless.mistakes.size(), 1U);
