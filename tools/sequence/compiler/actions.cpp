@@ -71,6 +71,13 @@ std::string in_milliseconds(const ast::Value& value) {
     const bool is_plain = value.kind == ast::Value::Kind::literal && value.unit.text.empty() &&
                           !value.is_raw && value.number >= 1 && value.number <= kLongest &&
                           std::floor(value.number) == value.number;
+    constexpr std::string_view kSeconds[] = {"sec", "secs", "sek", "second", "seconds", "sekunden"};
+    constexpr std::string_view kMilliseconds[] = {"msec", "msek", "millis", "milliseconds"};
+    const auto is_unit = [&](std::string_view unit) { return same_name(unit, value.unit.text); };
+    if (std::ranges::any_of(kSeconds, is_unit)) return fmt::format("write {:.9g} s", value.number);
+    if (std::ranges::any_of(kMilliseconds, is_unit)) return fmt::format("write {:.9g} ms", value.number);
+    if (is_unit("Hz") && value.number > 0)
+        return fmt::format("write T#{:.0f}ms, half of the period", 500 / value.number);
     if (!is_plain) return "write it as T#500ms";
     const std::string seconds = value.number <= kLongest / 1000.0
                                     ? fmt::format(", or T#{}s if they are seconds", value.number)
@@ -85,12 +92,17 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
     const bool seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
         const bool minutes = same_name(value.unit.text, "min");
+        const double in_seconds = value.number * 60;
+        const bool fits = minutes && in_seconds <= kLongest / 1000.0;
         const bool is_short = same_name(value.unit.text, "us");
         report.add("E043", value.span,
                    minutes    ? "times are in ms and s"
                    : is_short ? "the timer counts milliseconds"
                               : "the timer needs a time",
-                   minutes    ? "write T#1m, or 60 s"
+                   fits ? fmt::format("write {:.9g} s", in_seconds)
+                   : minutes
+                       ? "write it in s, up to 65 s; for longer times let the counter count repetitions "
+                         "of a shorter one"
                    : is_short ? "write 1 ms or more"
                               : in_milliseconds(value));
         return std::nullopt;
@@ -296,7 +308,8 @@ void ActionBuilder::add_command(const Statement& statement) {
         if (scope_.find_register(statement.name.text) != nullptr)
             help = "to write a register: Name := value;";
         if (scope_.is_input(statement.name.text)) help = "inputs are tested: IF Name THEN ... END_IF";
-        if (scope_.is_output(statement.name.text)) help = "to switch an output: OUT Name; in the step";
+        if (scope_.is_output(statement.name.text))
+            help = fmt::format("to switch an output: OUT {}; in the step", statement.name.text);
         if (scope_.is_step(statement.name.text))
             help = fmt::format("to go to the step: NEXT := {};", statement.name.text);
         if (help.empty())

@@ -228,7 +228,8 @@ void RegisterValues::report_no_register(const ast::Name& name) {
         help =
             fmt::format("there is one {0}: {0} := value; presets it, anew for each step that needs it", word);
     if (names_.is_output(name.text))
-        help = fmt::format("to switch an output: OUT {}; in the step", name.text);
+        help =
+            fmt::format("write OUT {0}; in the step where it is on, or SET {0}; until RESET {0};", name.text);
     if (names_.is_input(name.text)) help = "an input is wired: it cannot be written";
     if (mode_named(name.text))
         help = fmt::format("{0} is a command: select a register that holds the value, as in POSITION(P1)",
@@ -388,6 +389,10 @@ void RegisterValues::note_value(Diagnostic& diagnostic, const ast::Value& value,
 
 std::string RegisterValues::unit_help(const Register& reg, double number, std::string_view unit) const {
     const std::vector<std::string> fitting = fitting_units(reg, motor_.length());
+    constexpr std::string_view kPerMinute[] = {"tr/min", "r/min", "upm", "U/min", "turns/min"};
+    const auto is_unit = [&](std::string_view known) { return same_name(known, unit); };
+    if (std::ranges::any_of(kPerMinute, is_unit) && std::ranges::find(fitting, "rpm") != fitting.end())
+        return fmt::format("write {:.9g} rpm", number);
     std::vector<std::string> machine_first(fitting.rbegin(), fitting.rend());
     if (const auto same = converted(number, unit, machine_first))
         return fmt::format("write {:.9g} {} (use {})", same->number, same->unit,

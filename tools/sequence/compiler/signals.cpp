@@ -45,6 +45,48 @@ std::string how_to_declare(std::string_view name, const std::vector<DeclaredName
     return fmt::format("name one of those under {}: all {} addresses have a name", block, count);
 }
 
+bool is_of_a_motor(std::string_view name) {
+    return registers::find(registers::Model::mac140, name) != nullptr ||
+           registers::find(registers::Model::mac800, name) != nullptr;
+}
+
+/// What a word that other languages have as a condition is here; empty: the word means nothing.
+std::string_view help_of_condition(std::string_view name) {
+    struct Word {
+        std::string_view word;
+        std::string_view help;
+    };
+    constexpr std::string_view kArrived = "INPOS is true when the motor has arrived";
+    constexpr std::string_view kTime =
+        "TIMER.Q is true when the timer has run out, COUNTER.Q when the counter is 0";
+    constexpr std::string_view kNoError =
+        "write NOT ERROR, or nothing: a condition without the word ERROR holds without an error alone";
+    constexpr std::string_view kStart =
+        "what is done once at the beginning stands in POWER_UP .. END_POWER_UP";
+    constexpr auto kWords = std::to_array<Word>({
+        {"ANY_ERROR", "write ANY ERROR, in two words"},
+        {"ANYERROR", "write ANY ERROR, in two words"},
+        {"NO_ERROR", kNoError},
+        {"NOERROR", kNoError},
+        {"NOT_ERROR", kNoError},
+        {"FAULT", "write ERROR: it is true while the motor has an error"},
+        {"R_TRIG", "write R_TRIG(Start), with the name of the input"},
+        {"F_TRIG", "write F_TRIG(Start), with the name of the input"},
+        {"DONE", kArrived},
+        {"IN_POSITION", kArrived},
+        {"INPOSITION", kArrived},
+        {"TARGET_REACHED", kArrived},
+        {"TIMEOUT", kTime},
+        {"TIME_OUT", kTime},
+        {"ELAPSED", kTime},
+        {"FIRST_SCAN", kStart},
+        {"FIRSTSCAN", kStart},
+    });
+    const auto* const found = std::find_if(kWords.begin(), kWords.end(),
+                                           [&](const Word& row) { return same_name(row.word, name); });
+    return found == kWords.end() ? std::string_view() : found->help;
+}
+
 }  // namespace
 
 void Signals::declare(const ast::Program& program, Symbols& symbols) {
@@ -115,6 +157,13 @@ std::optional<std::size_t> Signals::find(const ast::Name& name, const std::vecto
     if (help.empty()) help = how_to_declare(name.text, variables, direction, count);
     if (!input && (same_name(name.text, "NONE") || same_name(name.text, "NOTHING")))
         help = "leave OUT out: what no OUT of the step names is off";
+    if (const std::string_view known = help_of_condition(name.text); input && !known.empty()) help = known;
+    if (input && (names_.find_register(name.text) != nullptr || is_of_a_motor(name.text)))
+        help =
+            "registers cannot be tested: a move has arrived when INPOS is true; conditions are of inputs, "
+            "INPOS, "
+            "ERROR, TIMER.Q and COUNTER.Q";
+    if (name.text.starts_with('%')) help = fmt::format("there are {}", addresses(direction, count));
     if (input && is_terminal_elsewhere(name.text)) help = "inputs are IN0 to IN5, and the names of VAR_INPUT";
     if (!input && is_terminal_elsewhere(name.text))
         help = "outputs are OUT0 to OUT3, and the names of VAR_OUTPUT";

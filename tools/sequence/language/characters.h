@@ -39,9 +39,22 @@ inline std::string spelt_plainly(std::string_view word) {
         {"\u00dc", "Ue"}, {"\u00df", "ss"}, {"\u00e9", "e"},  {"\u00e8", "e"},  {"\u00e0", "a"},
         {"\u00e5", "aa"}, {"\u00f8", "oe"}, {"\u00e6", "ae"}, {"\u00e7", "c"},  {"\u00f1", "n"},
     };
+    /// The accent as a character of its own behind the letter, as some systems write names of files.
+    constexpr std::string_view kDiaeresis = "\u0308";
+    const auto is_accent = [](std::string_view rest) {
+        const auto first = static_cast<unsigned char>(rest[0]);
+        const auto second = static_cast<unsigned char>(rest.size() > 1 ? rest[1] : '\0');
+        return first == 0xCC || (first == 0xCD && second < 0xB0);
+    };
     constexpr std::size_t kLongestShown = 120;
     std::string plain;
     while (!word.empty() && plain.size() <= kLongestShown) {
+        if (!plain.empty() && is_accent(word)) {
+            if (word.starts_with(kDiaeresis) && std::string_view("aouAOU").find(plain.back()) != plain.npos)
+                plain += 'e';
+            word.remove_prefix(2);
+            continue;
+        }
         const auto* const known = std::find_if(std::begin(kPlain), std::end(kPlain), [&](const auto& pair) {
             return word.starts_with(pair.first);
         });

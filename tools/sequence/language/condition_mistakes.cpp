@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "language/foreign_words.h"
 #include "language/names.h"
@@ -14,23 +17,138 @@ constexpr std::string_view kSeen =
     "a sequence sees inputs, INPOS, ERROR, TIMER.Q and COUNTER.Q, no positions, speeds or counts: move with "
     "POSITION(..) and test INPOS";
 
+constexpr std::string_view kRegister =
+    "registers cannot be tested: a move has arrived when INPOS is true; for a standstill wait a time, "
+    "TIMER := T#500ms; on the way to the step and TIMER.Q in it";
+constexpr std::string_view kStepActs = "a step's branches and its OUT hold while it is the active one";
+
 bool is_zero(const Token& t) {
-    return same_name(t.text, "FALSE") || t.text == "0";
+    return same_name(t.text, "FALSE") || same_name(t.text, "OFF") || t.text == "0";
 }
 bool is_one(const Token& t) {
-    return same_name(t.text, "TRUE") || t.text == "1";
+    return same_name(t.text, "TRUE") || same_name(t.text, "ON") || t.text == "1";
+}
+
+/// Whether the name is declared at such an address: `letters` are those of inputs or of outputs.
+bool is_declared_at(const TokenStream& in, std::string_view name, std::string_view letters,
+                    std::string_view located) {
+    const std::vector<Token>& tokens = in.tokens();
+    for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
+        if (!same_name(tokens[i].text, name) || !is_one_of(tokens[i + 1], {"AT"})) continue;
+        const std::string address = upper(tokens[i + 2].text);
+        if (address.starts_with(letters) || address.starts_with(located)) return true;
+    }
+    return false;
+}
+
+bool is_register_name(std::string_view name) {
+    const std::string word = upper(name);
+    return word.ends_with("_IST") || word.ends_with("_SOLL") || word.ends_with("_REG") ||
+           word.ends_with("_STAT");
+}
+
+std::string help_of_level(const TokenStream& in, const Token& first, std::string_view left, bool is_on) {
+    if (is_register_name(first.text) || is_declared_at(in, first.text, "P", "V"))
+        return std::string(kRegister);
+    if (is_declared_at(in, first.text, "OUT", "%Q"))
+        return "an output cannot be tested: it is on in the steps that name it, and the step is known";
+    return fmt::format("write {}{}", is_on ? "" : "NOT ", left);
+}
+
+/// The edge that a word stands for elsewhere; empty if for none.
+std::string_view edge_meant(std::string_view word) {
+    constexpr std::string_view kRising[] = {"R_TRIG", "R_EDGE",  "RISING",  "RISING_EDGE", "RISE",   "RISES",
+                                            "REDGE",  "POSEDGE", "EDGE_UP", "EDGE",        "FLANKE", "RE"};
+    constexpr std::string_view kFalling[] = {"F_TRIG", "F_EDGE", "FALLING", "FALLING_EDGE", "FALL",
+                                             "FALLS",  "FEDGE",  "NEGEDGE", "EDGE_DOWN",    "FE"};
+    const auto is = [&](std::string_view known) { return same_name(known, word); };
+    if (std::any_of(std::begin(kRising), std::end(kRising), is)) return "R_TRIG";
+    if (std::any_of(std::begin(kFalling), std::end(kFalling), is)) return "F_TRIG";
+    return {};
+}
+
+/// The word of this language for one of another tongue; empty if there is none.
+std::string_view translated(std::string_view word) {
+    constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+        {"UND", "AND"}, {"ODER", "OR"}, {"NICHT", "NOT"}, {"ET", "AND"}, {"OU", "OR"}, {"NON", "NOT"}};
+    for (const auto& [foreign, meant] : kWords) {
+        if (same_name(foreign, word)) return meant;
+    }
+    return {};
+}
+
+bool is_operand_at(const TokenStream& in, std::size_t ahead) {
+    return in.is_word_at(ahead) || in.token(ahead).kind == TokenKind::direct || in.is_symbol_at(ahead, "(") ||
+           is_one_of(in.token(ahead), {"NOT", "INPOS", "ERROR", "ANY", "TIMER", "COUNTER"});
+}
+
+/// STEP = Idle
+bool refuse_step_test(TokenStream& in, ast::Expression& result) {
+    const auto compares = [&](std::size_t ahead) {
+        return in.is_symbol_at(ahead, "=") || in.is_symbol_at(ahead, ":=") || in.is_symbol_at(ahead, "<") ||
+               in.is_symbol_at(ahead, ">") || is_one_of(in.token(ahead), {"IN", "IS"});
+    };
+    const bool is_told = is_one_of(in.token(1), {"NOT"}) && compares(2);  // STEP != Idle
+    if (!in.at("STEP") || (!compares(1) && !is_told)) return false;
+    const Token first = in.token();
+    in.skip();
+    while (in.at("NOT") || compares(0)) in.skip();
+    if (in.take_symbol("(")) {
+        while (!in.at_symbol(")") && !in.at_boundary() && !in.at("THEN")) in.skip();
+        in.take_symbol(")");
+    } else if (in.is_word_at(0) || in.at("POWER_UP") || in.token().kind == TokenKind::number) {
+        in.skip();
+    }
+    if (!is_told)
+        in.report().add("E014", in.span_since(first), "a condition cannot ask for the step",
+                        fmt::format("leave it out: {}; what many steps have in common stands above them, as "
+                                    "in ON condition IN Idle, Work NEXT := Step;",
+                                    kStepActs));
+    result = {};
+    return true;
+}
+
+/// RISING Start, R_TRIG Start
+bool refuse_bare_edge(TokenStream& in, ast::Expression& result) {
+    const Token first = in.token();
+    const std::string_view edge = edge_meant(first.text);
+    if (edge.empty() || !in.is_word_at(0)) return false;
+    const Token name = in.token(1);
+    if (name.kind != TokenKind::direct &&
+        (!in.is_word_at(1) || has_line_end(in, first.span.offset, name.span.offset)))
+        return false;
+    in.skip(2);
+    in.report().add("E014", in.span_since(first), "an edge has the input's name in parentheses",
+                    fmt::format("write {}({})", edge, name.text));
+    result = {};
+    return true;
+}
+
+/// NO ERROR; continues as NOT ERROR.
+bool mend_no_error(TokenStream& in, ast::Expression& result) {
+    if (!is_one_of(in.token(), {"NO"}) || !is_one_of(in.token(1), {"ERROR"})) return false;
+    const Token first = in.token();
+    in.skip(2);
+    in.report().add("E010", in.span_since(first), "there is no 'NO ERROR' in this language",
+                    "write NOT ERROR, or nothing: a condition without the word ERROR holds without an error "
+                    "alone");
+    result.kind = ast::Expression::Kind::negation;
+    result.operands.emplace_back().kind = ast::Expression::Kind::error;
+    return true;
 }
 
 }  // namespace
 
 bool at_comparison(const TokenStream& in) {
-    return in.at_symbol("=") || in.at_symbol(":=") || in.at_symbol("<") || in.at_symbol(">");
+    return in.at_symbol("=") || in.at_symbol(":=") || in.at_symbol("<") || in.at_symbol(">") || in.at("IS");
 }
 
 bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first, ast::Expression& result,
                        bool is_told) {
     const std::string left(in.source().substr(first.span.offset, in.span_since(first).length));
     const bool differs = in.at_symbol("<") && in.is_symbol_at(1, ">");
+    const bool is_above = in.at_symbol(">") && !in.is_symbol_at(1, "=");
+    const bool is_equal = !differs && !in.at_symbol("<") && !in.at_symbol(">");
     while (at_comparison(in)) in.skip();
     if (!in.take_symbol("-")) in.take_symbol("+");
     const Token right = in.token();
@@ -43,11 +161,15 @@ bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first,
         values.parse_unit(unit);
     }
     const bool truth = is_one(right) || is_zero(right);
+    const bool joins_inputs = (differs || is_equal) && is_declared_at(in, first.text, "IN", "%I") &&
+                              is_declared_at(in, right.text, "IN", "%I");
     result = {};
     if (is_told) return true;
-    in.report().add(
-        "E014", in.span_since(first), "a condition cannot compare: it is true or false",
-        truth ? fmt::format("write {}{}", is_one(right) != differs ? "" : "NOT ", left) : std::string(kSeen));
+    in.report().add("E014", in.span_since(first), "a condition cannot compare: it is true or false",
+                    truth          ? help_of_level(in, first, left, is_above || is_one(right) != differs)
+                    : joins_inputs ? fmt::format("write {}{} XOR {}{}", differs ? "" : "NOT (", left,
+                                                 right.text, differs ? "" : ")")
+                                   : std::string(kSeen));
     return true;
 }
 
@@ -57,11 +179,13 @@ bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call) {
     const bool calls = may_call && in.is_symbol_at(1, "(") && in.is_word_at(0);
     const bool has_part = in.is_symbol_at(1, ".") && !in.at("TIMER") && !in.at("COUNTER");
     if (!calls && !has_part) return false;
+    const std::string_view edge = calls ? edge_meant(first.text) : std::string_view();
+    const std::string argument(in.is_symbol_at(3, ")") ? in.token(2).text : "Start");
     in.skip(2);
     if (calls) {
         for (int open = 1; open > 0 && !in.at_boundary() && !in.at("THEN"); in.skip())
             open += in.at_symbol("(") ? 1 : in.at_symbol(")") ? -1 : 0;
-    } else if (in.token().kind == TokenKind::identifier) {
+    } else if (in.token().kind == TokenKind::identifier || in.token().kind == TokenKind::number) {
         in.skip();
     }
     const Token& last = in.last();
@@ -72,6 +196,11 @@ bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call) {
         help =
             "a step is the active one while its branches are judged; how long it may take says IF condition "
             "WITHIN T#3s, or TIMER := T#3s; on the way to it and TIMER.Q";
+    if (has_part && last.kind == TokenKind::number)
+        help = "inputs are IN0 to IN5, and the names of VAR_INPUT, each a bit by itself";
+    if (!edge.empty()) help = fmt::format("an edge is {}: write {}({})", edge, edge, argument);
+    if (calls && is_one_of(first, {"ACTIVE", "IS_ACTIVE", "IN_STEP"}))
+        help = fmt::format("leave it out: {}", kStepActs);
     if (same_name(last.text, "INPOS") || same_name(last.text, "ERROR")) help = "write " + upper(last.text);
     const bool is_edge = same_name(first.text, "R_TRIG") || same_name(first.text, "F_TRIG");
     if (in_property && calls && is_edge) {
@@ -85,6 +214,44 @@ bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call) {
                     calls ? fmt::format("a condition has no functions: there is no '{}'", first.text)
                           : fmt::format("'{}' has no parts", first.text),
                     help);
+    return true;
+}
+
+bool refuse_edge_behind(TokenStream& in, const Token& first, ast::Expression& result) {
+    const std::string_view edge = edge_meant(in.token().text);
+    if (edge.empty() || !in.is_word_at(0)) return false;
+    const std::string left(in.source().substr(first.span.offset, in.span_since(first).length));
+    in.skip();
+    in.report().add("E014", in.span_since(first), "an edge has the input's name in parentheses",
+                    fmt::format("write {}({})", edge, left));
+    result = {};
+    return true;
+}
+
+bool refuse_foreign_condition(TokenStream& in, bool may_call, ast::Expression& result) {
+    return refuse_step_test(in, result) || (may_call && refuse_bare_edge(in, result)) ||
+           mend_no_error(in, result);
+}
+
+void mend_foreign_word(TokenStream& in, bool joins) {
+    const std::string_view meant = translated(in.token().text);
+    if (meant.empty() || (meant != "NOT") != joins || !in.is_word_at(0) || !is_operand_at(in, 1)) return;
+    in.report().add("E010", in.token().span,
+                    fmt::format("there is no {} in this language", shown(in.token())),
+                    fmt::format("write {}", meant));
+    in.replace(meant);
+}
+
+bool refuse_arithmetic(TokenStream& in) {
+    const bool is_product = in.at_symbol("*");
+    const bool is_negated = is_one_of(in.token(), {"NAND", "NOR"}) && is_operand_at(in, 1);
+    if (!is_product && !in.at_symbol("+") && !in.at_symbol(",") && !is_negated) return false;
+    in.report().add("E010", in.token().span, fmt::format("{} does not join conditions", shown(in.token())),
+                    is_negated          ? fmt::format("write NOT (A {} B)", upper(in.token().text).substr(1))
+                    : is_product        ? "write AND"
+                    : in.at_symbol(",") ? "write AND where both must hold, OR where one of them is enough"
+                                        : "write OR");
+    while (!in.at("THEN") && !in.at_symbol(";") && !in.at_symbol(")") && !in.at_boundary()) in.skip();
     return true;
 }
 

@@ -17,6 +17,18 @@ bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first,
 /// R_TRIG(Start), TON1.Q, Motor.INPOS. Unless it `may_call`, a name and a ( are two conditions.
 bool refuse_call_or_part(TokenStream& in, bool in_property, bool may_call);
 
+/// STEP = Idle; RISING Start, unless a name is followed by another condition; NO ERROR.
+bool refuse_foreign_condition(TokenStream& in, bool may_call, ast::Expression& result);
+
+/// Start RISING, behind the name `first`.
+bool refuse_edge_behind(TokenStream& in, const Token& first, ast::Expression& result);
+
+/// UND, ODER, NICHT, ET, OU, NON; continues with the word of this language. `joins`: it stands between two.
+void mend_foreign_word(TokenStream& in, bool joins);
+
+/// A * B, A + B, A NAND B: continues behind the condition.
+bool refuse_arithmetic(TokenStream& in);
+
 /// TIMER2.Q; continues with TIMER.Q.
 bool mend_numbered_timer(TokenStream& in);
 

@@ -45,9 +45,12 @@ bool ExpressionParser::parse_operators(Expression& result, std::size_t level) {
         const Token first = in_.token();
         const std::size_t errors_before = in_.report().error_count();
         if (!parse_primary(result)) return false;
+        if (!in_property_) refuse_edge_behind(in_, first, result);
         if (!in_property_ && at_comparison(in_))
             return refuse_comparison(in_, values_, first, result, in_.report().error_count() > errors_before);
         if (in_.at("FOR") || in_.at("WITHIN")) return true;
+        if (!in_property_ && refuse_arithmetic(in_)) return true;
+        mend_foreign_word(in_, true);
         in_.mend({"AND", "OR", "XOR"}, "AND, OR, XOR or the end of the condition");
         return true;
     }
@@ -70,6 +73,7 @@ bool ExpressionParser::parse_operators(Expression& result, std::size_t level) {
 bool ExpressionParser::parse_primary(Expression& result) {
     const bool before_operand =
         in_.is_word_at(1) || (in_.token(1).kind == TokenKind::symbol && in_.token(1).text == "(");
+    mend_foreign_word(in_, false);
     if (before_operand) in_.mend({"NOT"}, "a condition");
     if (!in_property_ && refuse_misplaced_time(in_, values_) && in_.at("THEN")) {
         result = {};
@@ -93,7 +97,8 @@ bool ExpressionParser::parse_primary(Expression& result) {
         if (sound && !in_property_) refuse_misplaced_time(in_, values_);
         return sound && in_.expect_symbol(")", "to close the parenthesis");
     }
-    const bool sound = parse_named_primary(result);
+    const bool sound = (!in_property_ && refuse_foreign_condition(in_, !another_follows_, result)) ||
+                       parse_named_primary(result);
     result.span = in_.span_since(first);
     return sound;
 }

@@ -56,6 +56,18 @@ constexpr std::string_view kEdge = "an edge is a condition: IF R_TRIG(Start) THE
 
 constexpr auto kWords = std::to_array<ForeignWord>({
     {"GOTO", kGo, {}},
+    {"SPRINGE", kGo, {}},
+    {"GEHE", kGo, {}},
+    {"ALLER", kGo, {}},
+    {"WARTE", kWait, {}},
+    {"ATTENDRE", kWait, {}},
+    {"SETZE", kSwitch, {}},
+    {"AUSGANG", kOut, {}},
+    {"SORTIE", kOut, {}},
+    {"FAHRE", kMove, {}},
+    {"MOVEABS", kMove, {}},
+    {"MOVEREL", kRelative, {}},
+    {"WENN", "write IF condition THEN .. ELSE .. END_IF", "ENDE"},
     {"GO", kGo, {}},
     {"JMP", kGo, {}},
     {"JUMP", kGo, {}},

@@ -151,7 +151,8 @@ class Lexer {
         if (!is_digit(peek(1))) return false;
         ++at_;
         const std::size_t value = at_;
-        const bool is_time = same_name(type, "LTIME") || same_name(type, "LT");
+        const bool is_time = same_name(type, "LTIME") || same_name(type, "LT") || same_name(type, "S5T") ||
+                             same_name(type, "S5TIME");
         if (is_time) {
             take_word_and_dots();
             add(TokenKind::time, start);
@@ -256,9 +257,9 @@ class Lexer {
     /// errors.
     bool lex_foreign_operator(std::size_t start) {
         constexpr std::pair<std::string_view, std::string_view> kOperators[] = {
-            {"&&", "AND"},     {"&", "AND"},     {"||", "OR"},      {"|", "OR"},
-            {"!!", "NOT"},     {"!", "NOT"},     {"\u2227", "AND"}, {"\u2228", "OR"},
-            {"\u00ac", "NOT"}, {"\u2192", ":="}, {"\u21d2", ":="}};
+            {"&&", "AND"},    {"&", "AND"},      {"||", "OR"},     {"|", "OR"},
+            {"!!", "NOT"},    {"!", "NOT"},      {"~", "NOT"},     {"\u2227", "AND"},
+            {"\u2228", "OR"}, {"\u00ac", "NOT"}, {"\u2192", ":="}, {"\u21d2", ":="}};
         for (const auto& [sign, word] : kOperators) {
             if (!source_.substr(at_).starts_with(sign)) continue;
             at_ += sign.size();
@@ -310,11 +311,12 @@ class Lexer {
         return true;
     }
 
-    /// Two-byte UTF-8 letters, Latin, Greek and Cyrillic, except the signs for multiplication and division.
+    /// Two-byte UTF-8 letters, Latin, Greek and Cyrillic, and the accents that stand behind their letter
+    /// (U+0300 to U+036F), except the signs for multiplication and division.
     bool at_foreign_letter() const {
         const auto first = static_cast<unsigned char>(peek());
         const auto second = static_cast<unsigned char>(peek(1));
-        const bool letter = (first >= 0xC3 && first <= 0xC9) || (first >= 0xCD && first <= 0xD4);
+        const bool letter = (first >= 0xC3 && first <= 0xC9) || (first >= 0xCC && first <= 0xD4);
         return letter && second >= 0x80 && second < 0xC0 &&
                !(first == 0xC3 && (second == 0x97 || second == 0xB7));
     }

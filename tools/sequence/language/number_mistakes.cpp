@@ -43,7 +43,14 @@ bool refuse_malformed_number(TokenStream& in, bool in_list) {
     while (in.is_symbol_at(end, ".") && is_number(end + 1) && touches(end) && touches(end + 1)) end += 2;
     if (in.token(end).kind == TokenKind::identifier && touches(end) && has_digit(in.token(end).text)) ++end;
     std::string help = "a number is written in digits, with at most one point, and its unit behind it";
-    if (end == 1) {
+    if (end == 1 && is_number(1) && in.is_symbol_at(2, "/") && !in_list) {
+        const bool is_speed = in.token(1).text == "1" && is_one_of(in.token(3), {"min", "s"});
+        end = 4;
+        help = is_speed
+                   ? fmt::format("write {} {}", first.text, is_one_of(in.token(3), {"min"}) ? "rpm" : "rev/s")
+                   : "a number has no fraction behind it: write 1.5 for 1 1/2";
+        if (!is_speed && in.token(3).kind != TokenKind::number) end = 3;
+    } else if (end == 1) {
         std::string digits(first.text);
         while (is_number(end) && !in_list &&
                !has_line_end(in, first.span.offset, in.token(end).span.offset)) {

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "language/foreign_words.h"
 #include "language/names.h"
+#include "language/reserved_words.h"
 
 namespace nplc::seqc {
 
@@ -88,6 +90,124 @@ bool refuse_set_of_value(TokenStream& in, ast::Statement& statement) {
     in.report().add("E010", statement.name.span,
                     fmt::format("{} switches outputs", upper(statement.name.text)), help);
     while (!in.at_symbol(";") && !in.at_boundary()) in.skip();
+    return true;
+}
+
+bool refuse_qualifier(TokenStream& in) {
+    struct Qualifier {
+        std::string_view word;
+        std::string_view help;
+    };
+    constexpr auto kQualifiers = std::to_array<Qualifier>({
+        {"N", "write OUT {0};"},
+        {"S", "write SET {0}; in the branch that leads to the step, or ENTRY SET {0};"},
+        {"R", "write RESET {0}; in a branch, or ENTRY RESET {0};"},
+        {"P", "write ENTRY {0}; for a command; an output is on for as long as the step is active: OUT {0};"},
+        {"P1", "write ENTRY {0}; for a command; an output is on for as long as the step is active: OUT {0};"},
+        {"L",
+         "write OUT {0}; and leave the step after the time: TIMER := T#3s; on the way to it, TIMER.Q in it"},
+        {"D", "write OUT {0}; in a step of its own that a time leads to: TIMER := T#3s; and TIMER.Q"},
+    });
+    const auto* const found = std::find_if(kQualifiers.begin(), kQualifiers.end(), [&](const Qualifier& row) {
+        return same_name(row.word, in.token().text);
+    });
+    const bool has_time = in.token(1).kind == TokenKind::time;
+    const std::size_t at = in.is_symbol_at(1, ",") || has_time ? 2 : 1;
+    if (found == kQualifiers.end() || in.token().kind != TokenKind::identifier || !in.is_word_at(at) ||
+        !in.is_symbol_at(at + 1, ";"))
+        return false;
+    in.report().add("E010", in.token().span,
+                    fmt::format("there is no qualifier '{}' in this language", in.token().text),
+                    fmt::format(fmt::runtime(found->help), in.token(at).text));
+    return true;
+}
+
+bool refuse_no_statement(TokenStream& in) {
+    if (in.in_open_comment() || in.at_end()) return false;
+    constexpr std::string_view kStatements =
+        "statements are NEXT := Step; TIMER := T#1s; commands and register values";
+    const bool is_word = in.token().kind == TokenKind::identifier;
+    std::string help(kStatements);
+    if (is_one_of(in.token(), {"WHEN", "ON"}))
+        help = "in a step write IF condition THEN NEXT := Step; END_IF";
+    else if (is_one_of(in.token(), {"ERROR"}))
+        help = foreign_word("CLEAR_ERROR")->help;
+    else if (is_word && !is_reserved(in.token().text))
+        return false;
+    else if (in.at_symbol(":"))
+        help = fmt::format("leave the colon out: '{}' has none", in.last().text);
+    else if (in.at_symbol("-") && in.is_symbol_at(1, ">"))
+        help = foreign_word("GOTO")->help;
+    else if (in.at_symbol("(") && in.is_word_at(1))
+        help = fmt::format("an output is on in the step that says OUT {};", in.token(1).text);
+    in.error_here("a statement", help);
+    return true;
+}
+
+bool refuse_switch_without_name(TokenStream& in) {
+    if (!is_one_of(in.token(), {"SET", "RESET"})) return false;
+    const std::string word = upper(in.token().text);
+    const bool has_name = in.is_symbol_at(1, "(") && in.is_word_at(2);
+    if (!has_name && !in.is_symbol_at(1, ";")) return false;
+    in.report().add("E010", in.token().span, fmt::format("{} needs the name of an output behind it", word),
+                    has_name          ? fmt::format("write {} {};", word, in.token(2).text)
+                    : word == "RESET" ? "write RESET Lamp; or RESET_ERROR; for the motor's error"
+                                      : "write SET Lamp;");
+    return true;
+}
+
+bool refuse_reckoning(TokenStream& in, const ast::Statement& statement) {
+    const bool sign = in.at_symbol("+") || in.at_symbol("-") || in.at_symbol("*") || in.at_symbol("/");
+    const bool doubled = in.is_symbol_at(1, "=") || (sign && in.is_symbol_at(1, in.token().text));
+    if (!sign || !doubled) return false;
+    in.skip(2);
+    in.report().add("E010",
+                    {statement.name.span.offset,
+                     in.last().span.offset + in.last().span.length - statement.name.span.offset},
+                    "a sequence does not calculate: a register is given a value that is known beforehand",
+                    "count with COUNTER := 5; COUNT_DOWN; and COUNTER.Q; a move by a distance is made with "
+                    "POSITIONS_RELATIVE_P_FNC; at POWER_UP");
+    return true;
+}
+
+bool is_declared_output(const TokenStream& in, std::string_view name) {
+    const std::vector<Token>& tokens = in.tokens();
+    for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
+        if (!same_name(tokens[i].text, name) || !is_one_of(tokens[i + 1], {"AT"})) continue;
+        const std::string address = upper(tokens[i + 2].text);
+        if (address.starts_with("OUT") || address.starts_with("%Q")) return true;
+    }
+    return false;
+}
+
+bool refuse_level(TokenStream& in, const ast::Statement& statement) {
+    const std::string_view name = statement.name.text;
+    const Token level = in.token(1);
+    const bool is_output = is_declared_output(in, name);
+    bool is_on = is_one_of(level, {"ON", "TRUE"}) || (is_output && level.text == "1");
+    bool is_off = is_one_of(level, {"OFF", "FALSE"}) || (is_output && level.text == "0");
+    const bool is_alone = in.is_symbol_at(2, ";");
+    const std::vector<Token>& tokens = in.tokens();
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        if (is_one_of(tokens[i], {"CONST"}) && same_name(tokens[i + 1].text, level.text)) return false;
+    }
+    is_on = is_on && is_alone;
+    is_off = is_off && is_alone;
+    if (!is_on && !is_off && !is_output) return false;
+    in.skip();
+    const Token first = in.token();
+    while (!in.at_symbol(";") && !in.at_boundary() && !in.at("NEXT")) in.skip();
+    const std::uint32_t begin = statement.name.span.offset;
+    const Span value{first.span.offset, in.last().span.offset + in.last().span.length - first.span.offset};
+    constexpr std::uint32_t kMostShown = 60;
+    const bool is_short = value.length <= kMostShown && in.position() > 0;
+    in.report().add(
+        "E010", {begin, value.offset + value.length - begin},
+        "':=' gives a register a number: it switches nothing",
+        is_on ? fmt::format("write OUT {0}; in the step where it is on, or SET {0}; until RESET {0};", name)
+        : is_off   ? fmt::format("an output that no OUT of the step names is off; RESET {}; ends a SET", name)
+        : is_short ? fmt::format("write OUT {} WHEN {};", name, in.text_of(value))
+                   : fmt::format("write OUT {} WHEN condition;", name));
     return true;
 }
 

@@ -9,6 +9,9 @@
 
 namespace nplc::seqc {
 
+/// Whether the program declares the name AT one of OUT0 .. OUT3.
+bool is_declared_output(const TokenStream& in, std::string_view name);
+
 /// Mends a misspelt first word of a statement. `end_words` are also allowed there.
 void mend_statement(TokenStream& in, const Notes& notes, std::vector<std::string_view> end_words);
 
@@ -25,6 +28,16 @@ bool refuse_bare_arguments(TokenStream& in, const ast::Statement& statement);
 bool refuse_state(TokenStream& in, const Notes& notes, const ast::Statement& statement);
 /// SET V_SOLL := 100; SET POSITION 80 mm;
 bool refuse_set_of_value(TokenStream& in, ast::Statement& statement);
+/// N Lamp; D T#3s Lamp; as the actions of a chart.
+bool refuse_qualifier(TokenStream& in);
+/// -> Work; (Lamp) ERROR := 0; WHEN Start NEXT := Work;
+bool refuse_no_statement(TokenStream& in);
+/// SET(Lamp); RESET;
+bool refuse_switch_without_name(TokenStream& in);
+/// P_SOLL += 100; Lamp++;
+bool refuse_reckoning(TokenStream& in, const ast::Statement& statement);
+/// Lamp := ON; Lamp = Start;
+bool refuse_level(TokenStream& in, const ast::Statement& statement);
 /// SET Lamp WHEN Shut;
 bool refuse_condition_of_set(TokenStream& in, const ast::Statement& statement);
 /// CNTRL_BITS := HICLK OR INPSIGN;

@@ -8,6 +8,7 @@
 #include "language/names.h"
 #include "language/reserved_words.h"
 #include "language/statement_mistakes.h"
+#include "language/step_mistakes.h"
 
 namespace nplc::seqc {
 namespace {
@@ -30,6 +31,22 @@ void refuse_every_scan(TokenStream& in, const ast::Statement& statement, std::st
                     "leave it out");
 }
 
+/// The := behind NEXT; another sign in its place is reported.
+bool take_assignment_of_next(TokenStream& in) {
+    if (in.at_symbol(":") && in.is_word_at(1)) {
+        in.error_here("':=' after NEXT", fmt::format("write NEXT := {};", in.token(1).text));
+        in.skip();
+    } else if (in.is_word_at(0)) {
+        in.error_here("':=' after NEXT", fmt::format("write NEXT := {};", in.token().text));
+    } else if ((in.at_symbol("-") || in.at_symbol("=")) && in.is_symbol_at(1, ">")) {
+        in.error_here("':=' after NEXT", fmt::format("write NEXT := {};", in.token(2).text));
+        in.skip(2);
+    } else {
+        return in.expect_symbol(":=", "after NEXT");
+    }
+    return true;
+}
+
 }  // namespace
 
 bool StatementParser::parse(Statement& statement) {
@@ -37,6 +54,13 @@ bool StatementParser::parse(Statement& statement) {
     if (in_.take("EVERY_SCAN")) {
         statement.every_scan = true;
         statement.every_scan_span = first.span;
+        if (in_.at_symbol(";")) {
+            in_.error_here(
+                "a statement",
+                "EVERY_SCAN stands before the statement that it is about, as in EVERY_SCAN COUNT_DOWN;");
+            in_.skip();
+            return false;
+        }
     }
     if (!parse_simple(statement)) {
         in_.recover();
@@ -48,6 +72,12 @@ bool StatementParser::parse(Statement& statement) {
 }
 
 bool StatementParser::parse_target(ast::Name& name) {
+    if (take_digits_first(in_, name)) return true;
+    if (in_.at("STEP") && in_.is_word_at(1)) {
+        in_.report().add("E010", in_.token().span, "NEXT takes the step's name alone",
+                         fmt::format("write NEXT := {};", in_.token(1).text));
+        in_.skip();
+    }
     if (in_.token().kind == TokenKind::number || in_.at_symbol(";")) {
         in_.error_here("the name of a step", "steps go by their names: NEXT := Idle;");
         return false;
@@ -68,6 +98,11 @@ bool StatementParser::parse_outputs(std::vector<ast::Name>& outputs) {
         }
         ast::Name name;
         if (!notes_.expect_name(name, "the name of an output", ast::Role::output)) return false;
+        if (in_.at_symbol(".") && in_.token(1).kind == TokenKind::number) {
+            in_.report().add("E010", name.span, "outputs have no dot in their names",
+                             "outputs are OUT0 to OUT3, and the names of VAR_OUTPUT");
+            return false;
+        }
         outputs.push_back(name);
     } while (in_.take_symbol(","));
     return true;
@@ -76,19 +111,14 @@ bool StatementParser::parse_outputs(std::vector<ast::Name>& outputs) {
 bool StatementParser::parse_simple(Statement& statement) {
     if (in_.take("NEXT")) {
         statement.kind = Statement::Kind::next;
-        if (in_.is_word_at(0)) {
-            in_.error_here("':=' after NEXT", fmt::format("write NEXT := {};", in_.token().text));
-        } else if ((in_.at_symbol("-") || in_.at_symbol("=")) && in_.is_symbol_at(1, ">")) {
-            in_.error_here("':=' after NEXT", fmt::format("write NEXT := {};", in_.token(2).text));
-            in_.skip(2);
-        } else if (!in_.expect_symbol(":=", "after NEXT")) {
-            return false;
-        }
+        if (!take_assignment_of_next(in_)) return false;
         return parse_target(statement.name);
     }
     if (in_.take("COUNT_DOWN")) {
         statement.kind = Statement::Kind::count_down;
-        return true;
+        if (in_.token().kind == TokenKind::number)
+            in_.error_here("';'", "COUNT_DOWN; takes one off, and nothing stands behind it");
+        return in_.token().kind != TokenKind::number;
     }
     if (in_.take("CLEAR_COUNTER")) {
         statement.kind = Statement::Kind::clear_counter;
@@ -114,15 +144,14 @@ bool StatementParser::parse_simple(Statement& statement) {
         return values_.parse_register_number(statement.register_number) &&
                in_.expect_symbol(":=", "after the register") && values_.parse(statement.value);
     }
-    if (refuse_time_as_statement(in_) || refuse_foreign_word(in_)) return false;
-    if (in_.token().kind == TokenKind::identifier && is_reserved(in_.token().text)) {
-        in_.error_here("a statement",
-                       "statements are NEXT := Step; TIMER := T#1s; commands and register values");
+    if (refuse_time_as_statement(in_) || refuse_switch_without_name(in_) || refuse_foreign_word(in_) ||
+        refuse_qualifier(in_) || refuse_no_statement(in_))
         return false;
-    }
     if (!notes_.expect_name(statement.name, "a statement", ast::Role::command)) return false;
     if (in_.at_symbol(":=") || in_.at_symbol("=")) notes_.set_last_role(ast::Role::register_name);
     if (refuse_state(in_, notes_, statement)) return false;
+    const bool assigns = in_.at_symbol(":=") || in_.at_symbol("=");
+    if ((assigns && refuse_level(in_, statement)) || refuse_reckoning(in_, statement)) return false;
     if (in_.at_symbol(":=")) return parse_assignment(statement);
     if (in_.at_equals()) {
         in_.error_here(fmt::format("':=' after {}", statement.name.text), "write := with a colon");

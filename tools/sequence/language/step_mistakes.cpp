@@ -8,6 +8,7 @@
 
 #include "language/foreign_words.h"
 #include "language/names.h"
+#include "language/statement_mistakes.h"
 
 namespace nplc::seqc {
 namespace {
@@ -61,6 +62,18 @@ bool refuse_item_inside(TokenStream& in, Notes& notes) {
     return true;
 }
 
+bool take_digits_first(TokenStream& in, ast::Name& name) {
+    const Token digits = in.token();
+    const Token& letters = in.token(1);
+    if (digits.kind != TokenKind::number || letters.kind != TokenKind::identifier ||
+        letters.span.offset != digits.span.offset + digits.span.length)
+        return false;
+    in.skip(2);
+    const Span span = in.span_since(digits);
+    name = {in.text_of(span), span};
+    return true;
+}
+
 bool refuse_out_of_set(TokenStream& in) {
     if (!is_one_of(in.token(), {"SET", "RESET"}) || !in.is_word_at(1)) return false;
     const std::string word = upper(in.token().text);
@@ -80,7 +93,15 @@ bool refuse_out_tail(TokenStream& in) {
         in.replace("WHEN");
         return false;
     }
-    if (is_one_of(in.token(), {"AND", "OR"})) {
+    if (is_one_of(in.token(), {"FOR", "AFTER", "DELAY", "WITHIN"})) {
+        in.report().add(
+            "E010", in.token().span, "OUT has no time: it holds while the step is active",
+            "leave the step when the time is over: TIMER := T#3s; on the way to it, and IF TIMER.Q "
+            "THEN NEXT := Step; END_IF in it");
+        return true;
+    }
+    const bool names_another = same_line && in.is_word_at(0) && is_declared_output(in, in.token().text);
+    if (is_one_of(in.token(), {"AND", "OR"}) || names_another) {
         in.report().add("E010", in.token().span, "names of outputs are separated by commas",
                         "write OUT Ready, Lamp;");
         return true;

@@ -10,6 +10,8 @@ namespace nplc::seqc {
 
 /// CONST in a step, which is skipped. An unclosed step looks the same: then a STEP comes before END_STEP.
 bool refuse_item_inside(TokenStream& in, Notes& notes);
+/// 2Go, read as one name. False: something else is here.
+bool take_digits_first(TokenStream& in, ast::Name& name);
 /// OUT SET Lamp;
 bool refuse_out_of_set(TokenStream& in);
 /// OUT Ready IF Start; OUT Ready AND Alarm; OUT Ready(S); the first is mended, and false.

@@ -32,7 +32,10 @@ void StepParser::parse(ast::Program& program) {
         in_.skip();
     }
     ast::Step step;
-    if (!notes_.expect_name(step.name, "the step's name", ast::Role::step, true)) {
+    if (take_digits_first(in_, step.name)) {
+        in_.report().add("E010", step.name.span, "a name begins with a letter",
+                         fmt::format("write STEP S{0}: and NEXT := S{0};", step.name.text));
+    } else if (!notes_.expect_name(step.name, "the step's name", ast::Role::step, true)) {
         if (in_.token().kind == TokenKind::number)
             in_.report().last().help =
                 fmt::format("give it a name: STEP Name: or STEP Name AT {}:", in_.token().text);
@@ -166,6 +169,11 @@ void StepParser::parse_out(ast::Step& step) {
     if (is_one_of(in_.token(), {"NOT"})) {
         in_.report().add("E010", in_.token().span, "OUT names what is on in the step",
                          "leave it out: an output that OUT does not name is off");
+        return in_.recover();
+    }
+    if (in_.at_symbol("(") && in_.is_word_at(1)) {
+        in_.report().add("E010", in_.token().span, "OUT has no parentheses",
+                         fmt::format("write OUT {};", in_.token(1).text));
         return in_.recover();
     }
     if (refuse_out_of_set(in_) || !statements_.parse_outputs(outputs)) return in_.recover();
