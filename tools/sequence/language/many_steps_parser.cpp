@@ -99,10 +99,17 @@ void ManyStepsParser::parse_on_error(ast::Program& program) {
     in_.skip();
     ast::Name step;
     if (!in_.expect("ERROR", "after ON, as in ON ERROR NEXT := Fault;") || !refuse_before_next(in_) ||
-        !in_.expect("NEXT", "after ON ERROR") || !in_.expect_symbol(":=", "after NEXT") ||
-        !notes_.expect_name(step, "the name of the fault step", ast::Role::step)) {
+        !in_.expect("NEXT", "after ON ERROR") || !in_.expect_symbol(":=", "after NEXT")) {
         return in_.recover();
     }
+    if (in_.at("POWER_UP")) {
+        in_.report().add("E011", in_.token().span, "POWER_UP cannot be the fault step",
+                         "name a step with OWN ERROR;, whose branch with RESET_ERROR leads to POWER_UP");
+        in_.skip();
+        in_.end_statement();
+        return;
+    }
+    if (!notes_.expect_name(step, "the name of the fault step", ast::Role::step)) return in_.recover();
     if (program.on_error) refuse_twice(in_, in_.span_since(first), "ON ERROR", program.on_error->span);
     program.on_error = step;
     in_.end_statement();
