@@ -9,6 +9,7 @@ import sys
 import tempfile
 
 import document
+import kept
 import programs
 import registers
 from remembering import Impossible, machine_for
@@ -17,6 +18,7 @@ from tools import Tools, as_columns, sent_in_order, step_of_program
 SCANS = 150
 OF_A_TABLE = {"E071", "E072"}  # section 9: what a table cannot do
 OF_COPIES = OF_A_TABLE | {"E074"}  # and how many steps it has
+OF_NUMBERS = "E083"  # steps without a number: what is then said of the branches that lead to them is open
 
 
 class Difference(Exception):
@@ -28,6 +30,7 @@ class Duel:
         self.tools, self.map = tools, registers.read(register_map)
         self.document = document.Document(language)
         self.bytes = self.document.command_bytes()
+        self.errors = set()
 
     def fight(self, seed):
         """True if the program compiled, and behaved as the reference."""
@@ -37,6 +40,15 @@ class Duel:
             return self.compare(text, programs.course(rng, SCANS))
         except (Difference, KeyError, TypeError, AttributeError) as what:
             raise Difference(f"seed {seed}: {what!r}\n{text}") from what
+
+    def fight_for(self, name, text, codes):
+        """A program that is kept: also refused with these codes, or by neither."""
+        try:
+            ran = self.compare(text, programs.course(random.Random(name), SCANS))
+        except (Difference, KeyError, TypeError, AttributeError) as what:
+            raise Difference(f"{name}: {what!r}\n{text}") from what
+        if self.errors != codes or ran == bool(codes):
+            raise Difference(f"{name}: refused with {self.errors}\n{text}")
 
     def parted(self, text):
         """Every fourth program has its declarations in a file."""
@@ -51,9 +63,16 @@ class Duel:
         if tree is None:
             raise Difference("not in the grammar")
         program = self.document.program(tree, self.map, self.bytes)
-        is_possible = program.remembers() or program.is_possible()
+        misplaced = program.misplaced()
+        is_possible = misplaced or OF_NUMBERS in program.faults or program.remembers() or program.is_possible()
         said = self.tools.build(self.parted(text))
-        errors = {d["code"] for d in said if d["severity"] == "error"}
+        errors = self.errors = {d["code"] for d in said if d["severity"] == "error"}
+        if misplaced:
+            if errors != misplaced:
+                raise Difference(f"the grammar's rules forbid {misplaced}, the compiler {errors}")
+            return False
+        if OF_NUMBERS in program.faults & errors:
+            return False
         if program.remembers() and errors and errors <= OF_COPIES and not program.faults:
             return False
         if program.faults or errors - OF_A_TABLE:
@@ -99,6 +118,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         duel = Duel(Tools(seqc, nanoplc_sim, folder), language, register_map)
         try:
+            for program in kept.programs():
+                duel.fight_for(*program)
+            for seed in kept.SEEDS:
+                duel.fight(seed)
             ran = sum(duel.fight(seed) for seed in range(first, first + count))
         except Difference as difference:
             print(difference)

@@ -10,6 +10,7 @@ class Judge:
         fault = self.step(self.on_error) if self.on_error else None
         if fault and not fault.owns_error:
             self.faults.add("E081")
+            fault.owns_error = True  # as which its branches are checked
         first = self.power_up.next or self.steps[0].name
         if first == "POWER_UP" or (self.items("power_up") and not self.power_up.next):
             self.faults.add("E085")
@@ -113,7 +114,7 @@ class Judge:
                 numbers = {s.number for s in [*self.steps, *self.helpers.values()]}
                 helper.number = next(n for n in range(1, 62) if n not in numbers)
                 target = self.step(action.next)
-                helper.outputs = target.outputs if target else 0
+                helper.outputs = target.outputs if target else self.power_up_outputs
             step.helpers[action.key()] = helper
         return True
 

@@ -114,6 +114,14 @@ class Program(Judge):
         written = node.node("value")
         return self.set_points.get(written.text().strip().upper(), written) if written else None
 
+    def misplaced(self):
+        """What the rules behind the grammar forbid: `ON ERROR NEXT` is no condition for many steps, and stands once."""
+        likewise = [on for on in self.items("on_condition")
+                    if on.node("expression").text().strip().upper() == "ERROR" and not on.nodes("names")]
+        to_power_up = [on for on in likewise if on.node("next").words()[2] == "POWER_UP"]
+        times = len(self.items("on_error")) + len(likewise) - len(to_power_up)
+        return ({"E011"} if to_power_up else set()) | ({"E020"} if times > 1 else set())
+
     # Values
 
     def register(self, node):
@@ -265,7 +273,8 @@ class Program(Judge):
         free = (n for n in range(1, 62) if n not in {step.number for step in self.steps})
         for step in self.steps:
             if step.number is None:
-                step.number = next(free)
+                step.number = next(free, None)
+                self.faults |= {"E083"} if step.number is None else set()
 
     def step(self, name):
         return next((s for s in self.steps if s.name == name), None)

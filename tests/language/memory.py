@@ -27,6 +27,17 @@ def is_edge(node):
     return node.kind == "primary" and node.words()[:1] and node.words()[0] in EDGES
 
 
+def bare_branches(parts):
+    """The statements outside of IFs, which an IF divides."""
+    runs = [[]]
+    for part in parts:
+        if part.kind == "if":
+            runs.append([])
+        elif part.kind == "statement":
+            runs[-1].append(part)
+    return runs
+
+
 class Memory:
     """`reckon`: a time of the program in milliseconds; `bit`: of an input's name; `cases`: of a condition in a state."""
 
@@ -70,8 +81,8 @@ class Memory:
         tested = [t for part in parts if part.kind in ("if", "out") for t in find(part, "test")]
         others = any(t.words()[:1] == ["TIMER"] for t in tested)
         others |= any(part.kind == "entry" and part.node("action").words()[:1] == ["TIMER"] for part in parts)
-        for body in (b for part in parts if part.kind == "if" for b in part.nodes("body")):
-            statements = body.nodes("statement")
+        bodies = [body.nodes("statement") for part in parts if part.kind == "if" for body in part.nodes("body")]
+        for statements in [*bodies, *bare_branches(parts)]:
             leaves = any(s.node("next") for s in statements)
             others |= not leaves and any(s.node("action") and s.node("action").words()[:1] == ["TIMER"] for s in statements)
         if others or len(self.uses) > 1 and sorted(self.uses) != ["BLINKING", "WITHIN"]:

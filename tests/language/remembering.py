@@ -8,7 +8,8 @@ from judge import acts_alike
 from tools import HELPER
 
 Copy = namedtuple("Copy", "name state half latched")  # the step's name; None: POWER_UP
-Outcome = namedtuple("Outcome", "key copy timer")     # what is done, where it ends, what FOR or BLINKING preset
+# What is done, whether by ON ERROR, where it ends, what FOR or BLINKING preset, the outputs of OUT .. WHEN in another copy.
+Outcome = namedtuple("Outcome", "key is_fault copy timer outputs")
 Pending = namedtuple("Pending", "action outcome on_error back")
 
 class Impossible(Exception):
@@ -32,16 +33,25 @@ class RememberingMachine(Machine):
 
     def after(self, copy, step, action, case):
         latched = (copy.latched | action.sets) & ~action.resets
+        is_fault = bool(self.program.on_error and step and not step.owns_error and case >> 7 & 1)
         if action.next not in (None, copy.name or "POWER_UP"):
-            return Outcome(action.key(), Copy(None if action.next == "POWER_UP" else action.next, 0, 0, latched), None)
+            entered = Copy(None if action.next == "POWER_UP" else action.next, 0, 0, latched)
+            return Outcome(action.key(), is_fault, entered, None, 0)
         if step is None:
-            return Outcome(action.key(), copy._replace(latched=latched), None)
+            return Outcome(action.key(), is_fault, copy._replace(latched=latched), None, 0)
         state, timer = step.memory.next_state(copy.state, case, step.held)
         half = copy.half
         if step.memory.blinking and case >> 8 & 1:
             half = step.memory.half_after(half)
             timer = step.memory.time_of(half)
-        return Outcome(action.key(), Copy(copy.name, state, half, latched), timer)
+        other = Copy(copy.name, state, half, latched)
+        changes = other != copy and step.when
+        return Outcome(action.key(), is_fault, other, timer, self.outputs_of(other) | self.follows(step, case) if changes else 0)
+
+    @staticmethod
+    def follows(step, case):
+        """The outputs that OUT .. WHEN switches on."""
+        return sum({bit for outputs, cases in step.when if cases >> case & 1 for bit in (1, 2, 4, 8) if outputs & bit})
 
     def cases_of(self, copy, outcome):
         if copy not in self.known:
@@ -93,9 +103,7 @@ class RememberingMachine(Machine):
         if before != self.copy or step is None and self.program.power_up_outputs:
             self.outputs = self.outputs_of(self.copy)
         if step and follows and before.name == self.copy.name and (step.when or step.number == 0 and step.outputs):
-            self.outputs = self.outputs_of(self.copy)
-            for outputs, cases in step.when:
-                self.outputs |= outputs if cases >> case & 1 else 0
+            self.outputs = self.outputs_of(self.copy) | self.follows(step, case)
         return list(action.sends)
 
     def outputs_of(self, copy):
