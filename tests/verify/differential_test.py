@@ -1,9 +1,13 @@
-"""seqc verify held against a naive explorer, on random small tables and properties.
+"""seqc verify held against a naive explorer, on random small tables and programs, and properties.
 
 usage: differential_test.py SEQC NANOPLC_SIM CASES [SEED]
+
+Every second case is a program of the language, with ON, groups, and steps that the compiler makes itself.
 """
 
+import contextlib
 import json
+import os
 import random
 import subprocess
 import sys
@@ -12,6 +16,7 @@ import tempfile
 import naive
 import programs
 import random_cases
+import random_programs
 
 PROPERTIES = 10
 
@@ -109,14 +114,18 @@ def held_too_long(c, d, ms, course, states):
     return False
 
 
+def unreachable_of(case, report):
+    return {case.numbers.get(step, step) for step in report["unreachable"]}
+
+
 def check_any(case, table, properties, report, explorer):
     begun = explorer.begun | {0}
     with_terms = {t[0] & 0x3F for t in table[:-1]}
-    unreachable = {s for s in with_terms if s not in begun}
+    unreachable = {s for s in with_terms | set(case.numbers.values()) if s not in begun}
     if explorer.move_ms is None:
-        assert set(report["unreachable"]) == unreachable, report["unreachable"]
+        assert unreachable_of(case, report) == unreachable, report["unreachable"]
     else:  # reported without times
-        assert set(report["unreachable"]) <= unreachable, report["unreachable"]
+        assert unreachable_of(case, report) <= unreachable, report["unreachable"]
     results = {r["name"]: r for r in report["results"] if "code" not in r}
     for number, prop in enumerate(properties):
         holds, shortest = explorer.verdict(prop[0], prop[1], prop[2], prop[5], prop[3])
@@ -133,7 +142,7 @@ def check_any(case, table, properties, report, explorer):
 
 def check_driver(case, properties, report, free, explorer):
     """Each course of the driver's is one of `any`."""
-    assert set(report["unreachable"]) >= set(free["unreachable"])
+    assert unreachable_of(case, report) >= unreachable_of(case, free)
     results = {r["name"]: r for r in report["results"] if "code" not in r}
     for other in free["results"]:
         if "code" in other:
@@ -149,6 +158,23 @@ def check_driver(case, properties, report, free, explorer):
     return [r["verdict"] for r in results.values()]
 
 
+def random_case(case, number, rng, moves):
+    """(table, properties); a program's symbols stand beside its table."""
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(case.path("t.sym"))
+    case.numbers = {}
+    if number % 2 == 1:
+        program = random_programs.random_program(case, rng)
+        case.text, case.numbers = program.text, program.numbers
+        steps = len(program.numbers)
+        properties = random_cases.random_properties(rng, steps, PROPERTIES - 2, moves=moves)
+        return program.table, properties + random_cases.group_properties(rng, program.group, steps, PROPERTIES - 2)
+    table, steps = random_cases.random_table(rng, moves=moves)
+    case.text = "\n".join(t.hex(" ") for t in table)
+    case.path("t.bin", b"".join(table))
+    return table, random_cases.random_properties(rng, steps, PROPERTIES, moves=moves)
+
+
 def main():
     seqc, nanoplc_sim, cases = sys.argv[1], sys.argv[2], int(sys.argv[3])
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(1 << 32)
@@ -158,9 +184,7 @@ def main():
         for number in range(cases):
             rng = random.Random(seed * 1_000_003 + number)
             move_ms = rng.choice([1, 2, 4]) if number % 3 == 2 else None
-            table, steps = random_cases.random_table(rng, moves=move_ms is not None)
-            properties = random_cases.random_properties(rng, steps, PROPERTIES, moves=move_ms is not None)
-            case.path("t.bin", b"".join(table))
+            table, properties = random_case(case, number, rng, move_ms is not None)
             text = "\n".join(p[4] for p in properties)
             if move_ms is not None:
                 text += f"\nASSUME moving ENDS WITHIN {move_ms} ms;"
@@ -171,9 +195,9 @@ def main():
                 check_any(case, table, properties, free, explorer)
                 verdicts += check_driver(case, properties, case.verify("driver"), free, explorer)
             except AssertionError:
-                print(f"case {number} of seed {seed}:\n" + "\n".join(t.hex(" ") for t in table) + "\n" + text)
+                print(f"case {number} of seed {seed}:\n{case.text}\n{text}")
                 raise
-    print(f"{cases} tables, {len(verdicts)} properties; under driver "
+    print(f"{cases} tables and programs, {len(verdicts)} properties; under driver "
           + ", ".join(f"{verdicts.count(v)} {v}" for v in ("proved", "broken", "undecided")))
 
 

@@ -1,4 +1,5 @@
-"""What is broken at a time is broken at every shorter one, and what is proved at every longer one, on random tables.
+"""What is broken at a time is broken at every shorter one, and what is proved at every longer one, on random tables and on
+random programs of the language.
 
 usage: monotonic_test.py SEQC NANOPLC_SIM CASES [SEED]
 """
@@ -11,6 +12,7 @@ import tempfile
 
 import programs
 import random_cases
+import random_programs
 
 TIMES = [1, 2, 3, 5, 8, 20, 50, 320, 350, 800]
 FORMS = {"whenever": "WHENEVER {} THEN {} WITHIN {} ms", "for": "WHENEVER {} FOR {} ms THEN {}",
@@ -23,11 +25,6 @@ def text_of(form, c, d, ms):
 
 
 class Case(programs.Programs):
-    def text_of_table(self):
-        with open(self.path("t.bin"), "rb") as file:
-            content = file.read()
-        return "\n".join(content[i:i + 8].hex(" ") for i in range(0, len(content), 8))
-
     def verdicts(self, text):
         self.path("p.prop", text.encode())
         done = subprocess.run([self.seqc, "verify", self.path("t.bin"), "--property", self.path("p.prop"), "--json"],
@@ -44,9 +41,14 @@ def check_order(verdicts, what):
     assert verdicts == sorted(verdicts, key=rank.get), (what, verdicts)
 
 
-def check_case(case, rng):
-    table, steps = random_cases.random_table(rng)
-    case.path("t.bin", b"".join(table))
+def check_case(case, number, rng):
+    if number % 2 == 1:
+        program = random_programs.random_program(case, rng, rng.choice([3, 30, 400]))
+        case.text, steps = program.text, len(program.numbers)
+    else:
+        table, steps = random_cases.random_table(rng)
+        case.path("t.bin", b"".join(table))
+        case.text = "\n".join(t.hex(" ") for t in table)
     seen = []
     questions = [(rng.choice(list(FORMS)), *(random_cases.random_condition(rng, steps) for _ in range(2))) for _ in range(4)]
     text = "".join(f"PROPERTY P{n}_{ms}: {text_of(form, c, d, ms)};\n"
@@ -69,11 +71,11 @@ def main():
         case = Case(seqc, nanoplc_sim, folder)
         for number in range(cases):
             try:
-                all_verdicts += check_case(case, random.Random(seed * 1_000_003 + number))
+                all_verdicts += check_case(case, number, random.Random(seed * 1_000_003 + number))
             except AssertionError:
-                print(f"case {number} of seed {seed}:\n" + case.text_of_table())
+                print(f"case {number} of seed {seed}:\n" + case.text)
                 raise
-    print(f"{cases} tables of seed {seed}: " + ", ".join(f"{all_verdicts.count(v)} {v}" for v in ("broken", "undecided", "proved")))
+    print(f"{cases} tables and programs of seed {seed}: " + ", ".join(f"{all_verdicts.count(v)} {v}" for v in ("broken", "undecided", "proved")))
 
 
 main()

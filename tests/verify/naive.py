@@ -102,7 +102,7 @@ def orders(table, state, image):
 
 
 def holds(condition, image, state):
-    """A condition as a tree: ("in", bit), ("out", bit), ("timer",), ("counter",), ("step", n), ("moving",), ("not", x),
+    """A condition as a tree: ("in", bit), ("out", bit), ("timer",), ("counter",), ("step", n), ("group", numbers), ("moving",), ("not", x),
     ("and"|"or"|"xor", x, y)."""
     kind = condition[0]
     if kind == "in":
@@ -117,6 +117,8 @@ def holds(condition, image, state):
         return state[4] in MOVING
     if kind == "step":
         return state[0] == condition[1]
+    if kind == "group":
+        return state[0] in condition[1]
     if kind == "not":
         return not holds(condition[1], image, state)
     left, right = holds(condition[1], image, state), holds(condition[2], image, state)

@@ -56,6 +56,8 @@ def text_of(condition):
         return f"step = {condition[1]}"
     if kind == "moving":
         return kind
+    if kind == "group":
+        return "STEP IN G"
     if kind in ("timer", "counter"):
         return f"{kind.upper()}.Q"
     if kind == "not":
@@ -76,6 +78,17 @@ def text_of_form(form, c, d, e, ms):
 
 BASIC = ["never", "always", "reachable", "possible", "whenever"]
 FORMS = [*BASIC, "after", "while", "only", "stays", "changes", "scan", "followed", "from", "both"]
+
+
+def group_properties(rng, group, steps, first):
+    """What the table's steps are called in the program, by numbers of the steps."""
+    group = ("group", group)
+    chosen = [("never", group), ("possible", group), ("reachable", group), ("always", group), ("scan", group), ("stays", group)]
+    result = []
+    for number, (form, c) in enumerate(rng.sample(chosen, 2), first):
+        d, e = (random_condition(rng, steps) for _ in range(2))
+        result.append((form, c, d, 2, f"PROPERTY P{number}: {text_of_form(form, c, d, e, 2)};", e))
+    return result
 
 
 def random_properties(rng, steps, count, forms=tuple(FORMS), moves=False):
