@@ -415,22 +415,37 @@ class Telling(ServiceCase):
             with subprocess.Popen([service_case.NANOPLC, "--config", self.write(self.axis(table=self.table))], stderr=lines,
                                   env=environment) as process:
 
-                def next_with(field, value):
-                    while True:
-                        fields = dict(line.split("=", 1) for line in journal.recv(65536).decode().splitlines())
-                        if fields.get(field) == value:
-                            return fields
+                seen = []
 
-                self.assertEqual(next_with("NANOPLC_EVENT", "motor_answers")["NANOPLC_AXIS"], "x")
+                def first_with(field, value):
+                    """Has come, or comes."""
+                    while not any(fields.get(field) == value for fields in seen):
+                        try:
+                            seen.append(dict(line.split("=", 1) for line in journal.recv(65536).decode().splitlines()))
+                        except TimeoutError:
+                            process.kill()
+                            raise
+                    return next(fields for fields in seen if fields.get(field) == value)
+
+                self.assertEqual(first_with("NANOPLC_EVENT", "motor_answers")["NANOPLC_AXIS"], "x")
                 self.moves()
                 self.pull_out()
-                lost = next_with("NANOPLC_CAUSE", "link_down")
+                lost = first_with("NANOPLC_EVENT", "link_down")
                 self.assertEqual((lost["PRIORITY"], lost["SYSLOG_IDENTIFIER"], lost["NANOPLC_EVENT"], lost["NANOPLC_AXIS"]),
                                  ("3", "nanoplc", "link_down", "x"))
+                self.assertEqual(lost["NANOPLC_CAUSE"], "link_down")
                 self.assertIn("the motor does not answer (step " + lost["NANOPLC_STEP"] + ")", lost["MESSAGE"])
+                gone = first_with("NANOPLC_EVENT", "port_gone")
+                self.assertEqual((gone["NANOPLC_AXIS"], gone["NANOPLC_CAUSE"]), ("x", "link_down"), gone)
                 process.terminate()
-                self.assertEqual(next_with("MESSAGE", "ends: Terminated")["PRIORITY"], "5")
+                self.assertEqual(first_with("MESSAGE", "ends: Terminated")["PRIORITY"], "5")
+                unstopped = first_with("NANOPLC_EVENT", "end_unstopped")
+                self.assertEqual((unstopped["NANOPLC_AXIS"], unstopped["NANOPLC_CAUSE"]), ("x", "link_down"), unstopped)
+                self.assertIn("could not be told to stop", unstopped["MESSAGE"])
                 process.wait(LONG)
+                for fields in seen:
+                    self.assertIn("NANOPLC_EVENT", fields)
+                    self.assertEqual(fields["MESSAGE"].startswith("x: "), "NANOPLC_AXIS" in fields, fields)
         self.assertEqual(os.path.getsize(stream), 0)
 
     def test_systemd_is_told_and_its_watchdog_fed(self):

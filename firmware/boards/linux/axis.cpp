@@ -55,7 +55,8 @@ void Axis::begin(base::Instant now) {
         try_at_ = now + kBetweenTries;
     } else {
         try_at_ = base::kNever;
-        if (!reported_missing_.empty()) journal_.write(LogLevel::notice, "has all that it needs");
+        if (!reported_missing_.empty())
+            journal_.write(LogLevel::notice, JournalEvent::complete, "has all that it needs");
         reported_missing_.clear();
     }
     watch_all();
@@ -83,15 +84,16 @@ SafeReason Axis::missing_reason() const {
 }
 
 /// Logs each reason once, over all retries.
-void Axis::note_missing(std::string& what, const std::string& why) {
+void Axis::note_missing(std::string& what, SafeReason cause, const std::string& why) {
     what = why;
     if (why.empty() || !reported_missing_.insert(why).second) return;
-    journal_.write(LogLevel::error, why + "; the axis is stopped, and tries again until it can have it");
+    journal_.write(LogLevel::error, JournalEvent::missing,
+                   why + "; the axis is stopped, and tries again until it can have it", cause_field(cause));
 }
 
 void Axis::open_store(base::Instant now) {
     if (store_.is_open()) return;
-    note_missing(missing_.store, store_.open(folder_));
+    note_missing(missing_.store, SafeReason::no_store, store_.open(folder_));
     if (!store_.is_open()) return;
     using gateway::StartCause;
     if (!cause_) cause_ = store_.is_after_crash(board_) ? StartCause::watchdog : StartCause::power_up;
@@ -102,17 +104,18 @@ void Axis::open_pins() {
     missing_.lines.clear();
     for (const std::string& error :
          pins_.open(config_, static_cast<std::uint8_t>(setting(Setting::safe_outputs))))
-        note_missing(missing_.lines, error);
+        note_missing(missing_.lines, SafeReason::no_lines, error);
 }
 
 /// A line that cannot be opened counts as a lost link and is retried separately.
 void Axis::open_motor() {
-    motor_.open(config_.name, config_.motor, setting(Setting::motor_baud));
-    if (config_.motor.mactalk_port.is_there()) mactalk_.open(config_.name, config_.motor.mactalk_port.text);
+    motor_.open(config_.motor, setting(Setting::motor_baud));
+    if (config_.motor.mactalk_port.is_there()) mactalk_.open(config_.motor.mactalk_port.text);
 }
 
 void Axis::open_user_port() {
-    note_missing(missing_.port, user_.open(config_, setting(Setting::user_baud), is_running_, faces_.seat()));
+    note_missing(missing_.port, SafeReason::no_port,
+                 user_.open(config_, setting(Setting::user_baud), is_running_, faces_.seat()));
 }
 
 void Axis::start(base::Instant now) {
@@ -157,15 +160,16 @@ void Axis::load_table(base::Instant now) {
     const LoadedTable loaded = load_first_table(controller_->tables(), *settings_, config_, now);
     if (!loaded.fault.empty()) {
         controller_->sequence().block_start(SafeReason::bad_table);
-        return journal_.write(LogLevel::error, loaded.fault);
+        return journal_.write(LogLevel::error, JournalEvent::bad_table, loaded.fault,
+                              cause_field(SafeReason::bad_table));
     }
-    journal_.write(LogLevel::info, loaded.where_from);
+    journal_.write(LogLevel::info, JournalEvent::table_loaded, loaded.where_from);
 }
 
 void Axis::tell_stored_settings() {
     for (const StoredSetting& other : stored_settings(*settings_, config_))
         journal_.write(
-            LogLevel::notice,
+            LogLevel::notice, JournalEvent::setting_unused,
             fmt::format(
                 "setting {} is {}, as stored over the user's port; the configuration's {} is not used",
                 other.name, other.stored, other.configured));
@@ -173,7 +177,7 @@ void Axis::tell_stored_settings() {
 
 /// Restarts the axis as after a power-up. A stop that the motor has not confirmed is not forgotten.
 void Axis::reset(base::Instant now) {
-    journal_.write(LogLevel::notice, "reset over the user's port");
+    journal_.write(LogLevel::notice, JournalEvent::reset, "reset over the user's port");
     is_unstopped_ = controller_->sequence().stop_unconfirmed();
     if (store_.is_open()) cause_ = gateway::StartCause::power_up;
     begin(now);
@@ -183,7 +187,9 @@ void Axis::note_running(base::Instant now) {
     is_running_ = true;
     const std::string error = store_.mark_running();
     if (error.empty()) return;
-    journal_.write(LogLevel::error, error + "; make room, or mend it, and restart the service");
+    journal_.write(LogLevel::error, JournalEvent::run_mark_failed,
+                   error + "; make room, or mend it, and restart the service",
+                   cause_field(SafeReason::bad_run_mark));
     controller_->sequence().lock_and_enter_safe_state(SafeReason::bad_run_mark, now);
 }
 
@@ -196,18 +202,27 @@ void Axis::give_permission(base::Instant now) {
     is_giving_ = !outcome.has_value();
     if (!outcome) return;
     if (outcome->empty()) return sequence.mark_run();
-    journal_.write(LogLevel::error, *outcome + "; it has not started, `nanoctl run` again");
+    journal_.write(LogLevel::error, JournalEvent::run_mark_failed,
+                   *outcome + "; it has not started, `nanoctl run` again",
+                   cause_field(SafeReason::bad_run_mark));
     if (sequence.wants_mark()) sequence.refuse_run_mark();
 }
 
 void Axis::mark_clean_shutdown() {
     if (const std::string error = store_.mark_ended(); !error.empty())
-        journal_.write(LogLevel::warning, error + "; the next start waits for `nanoctl run`");
+        journal_.write(LogLevel::warning, JournalEvent::run_mark_failed,
+                       error + "; the next start waits for `nanoctl run`");
 }
 
 void Axis::note_unstopped_end() {
+    const bool answers = motor_.has_driver() && motor::link_is_usable(motor_.driver().link());
+    journal_.write(
+        LogLevel::warning, JournalEvent::end_unstopped,
+        fmt::format("the motor {}; it may be moving. The next start waits for `nanoctl run`",
+                    answers ? "has not confirmed the stop" : "does not answer and could not be told to stop"),
+        answers ? JournalFields{} : cause_field(SafeReason::link_down));
     if (const std::string error = store_.mark_crashed(); !error.empty())
-        journal_.write(LogLevel::warning, error);
+        journal_.write(LogLevel::warning, JournalEvent::run_mark_failed, error);
 }
 
 void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
@@ -264,7 +279,7 @@ void Axis::serve(base::Instant now) {
     if (now >= try_at_ && !is_storing) try_again(now);
     poll_controller(now);
     faces_.poll(*controller_, motor_.any_driver(), now, now);
-    bool is_back = motor_.look(journal_.journal(), now);
+    bool is_back = motor_.look(journal_, now);
     mactalk_.look(controller_->sequence(), journal_, now);
     is_back = user_.look_for_serial_port(now) || is_back;
     if (is_back) watch_ports();
@@ -272,7 +287,7 @@ void Axis::serve(base::Instant now) {
     watch_pins(now);
     give_permission(now);
     if (const auto news = faces_.seat().take_news())
-        journal_.write(LogLevel::notice,
+        journal_.write(LogLevel::notice, JournalEvent::new_operator,
                        fmt::format("operator: {} took over from {}", news->by.name, news->from.name));
     reporter_.set_store(store_.is_open());
     reporter_.report(*controller_, motor_, faces_.seat().holder(), now);
@@ -292,9 +307,10 @@ void Axis::watch_or_wait(base::Instant now) {
 void Axis::watch_pins(base::Instant now) {
     if (!pins_.is_newly_lost(*loop_)) return;
     journal_.write(
-        LogLevel::error,
+        LogLevel::error, JournalEvent::missing,
         "SAFE: a GPIO chip is gone; its lines read 0 and nothing can be switched; `nanoctl reset` when it is "
-        "back");
+        "back",
+        cause_field(SafeReason::no_lines));
     controller_->sequence().lock_and_enter_safe_state(SafeReason::no_lines, now);
 }
 

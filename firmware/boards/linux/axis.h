@@ -52,21 +52,18 @@ class Axis {
     /// Orderly shutdown: outputs safe, motor told to stop; then call serve() until has_stopped().
     void begin_shutdown(base::Instant now);
     bool has_stopped() const;
-    bool motor_answers() const {
-        return motor_.has_driver() && motor::link_is_usable(motor_.driver().link());
-    }
     /// From now on a disorderly end counts as a crash; a start that failed before does not. An axis that
     /// cannot be marked does not run.
     void note_running(base::Instant now);
     /// The end was orderly: the next start is not one after a crash.
     void mark_clean_shutdown();
-    /// The motor has not confirmed the stop: the next start is one after a crash, in whichever boot.
+    /// The motor has not confirmed the stop, which is logged: the next start is one after a crash, in
+    /// whichever boot.
     void note_unstopped_end();
 
     /// Async-signal-safe; called from the fatal-signal handler.
     void write_safe_outputs();
 
-    const std::string& name() const { return config_.name; }
     /// For the other interfaces (firmware/faces), while the axis exists.
     faces::AxisModel& model() { return faces_.model(); }
     std::string state_in_words() const;
@@ -82,7 +79,7 @@ class Axis {
         return missing_.store.empty() && missing_.lines.empty() && missing_.port.empty();
     }
     gateway::SafeReason missing_reason() const;
-    void note_missing(std::string& what, const std::string& why);
+    void note_missing(std::string& what, gateway::SafeReason cause, const std::string& why);
 
     void begin(base::Instant now);
     void try_again(base::Instant now);

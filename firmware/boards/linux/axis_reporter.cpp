@@ -61,7 +61,7 @@ void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, con
     report_events(controller, holder);
     report_stop(controller, holder, now);
     for (const LogMessage& message : motor.news())
-        journal_.write(message.level, message.text, {{"EVENT", "drive"}});
+        journal_.write(message.level, JournalEvent::drive, message.text);
     report_link(motor, now);
 }
 
@@ -81,7 +81,7 @@ void AxisReporter::report_events(gateway::Controller& controller, const faces::S
             message.text += "; " + client;
             fields.push_back({"CLIENT", client});
         }
-        journal_.write(message.level, message.text, fields);
+        journal_.write(message.level, event_of(entry), message.text, fields);
         if (static_cast<Event>(entry.event) == Event::table_activated) report_drops(controller);
     });
     drops_.look(controller);
@@ -89,10 +89,9 @@ void AxisReporter::report_events(gateway::Controller& controller, const faces::S
 
 void AxisReporter::report_drops(gateway::Controller& controller) {
     for (const set_points::Dropped& one : drops_.exchanged(controller)) {
-        journal_.write(LogLevel::warning, "set-points: " + set_points::text_of(one),
-                       {{"EVENT", "set_point_dropped"},
-                        {"SET_POINT", one.name},
-                        {"REASON", std::string(set_points::key_of(one.why))}});
+        journal_.write(LogLevel::warning, JournalEvent::set_point_dropped,
+                       "set-points: " + set_points::text_of(one),
+                       {{"SET_POINT", one.name}, {"REASON", std::string(set_points::key_of(one.why))}});
     }
 }
 
@@ -109,7 +108,7 @@ void AxisReporter::report_stop(gateway::Controller& controller, const faces::Sit
                              .last_command = base::load_u32(command.data()),
                              .operator_name = holder == nullptr ? std::string_view() : holder->name},
                             now);
-    if (message) journal_.write(message->level, message->text, {{"EVENT", message->event}});
+    if (message) journal_.write(message->level, message->event, message->text);
 }
 
 void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
@@ -117,10 +116,12 @@ void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
     if (motor::link_is_usable(link)) tell_silence_at_ = base::kNever;
     if (now >= tell_silence_at_) {
         tell_silence_at_ = base::kNever;
-        journal_.write(LogLevel::warning, motor.silence_in_words(), {{"EVENT", "motor_silent"}});
+        journal_.write(LogLevel::warning, JournalEvent::motor_silent, motor.silence_in_words(),
+                       cause_field(gateway::SafeReason::link_down));
     }
     if (const auto count = link_messages_.count(now))
-        journal_.write(LogLevel::warning, *count, {{"EVENT", "motor_lost"}});
+        journal_.write(LogLevel::warning, JournalEvent::motor_lost, *count,
+                       cause_field(gateway::SafeReason::link_down));
     if (motor::link_is_usable(link) == motor::link_is_usable(told_link_)) return;
     told_link_ = link;
     if (motor::link_is_usable(link))
@@ -129,10 +130,11 @@ void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
         link_messages_.lost(now);
     if (!link_messages_.writes_whole()) return;
     if (motor::link_is_usable(link))
-        journal_.write(LogLevel::notice, "the motor answers on " + motor.line_in_words(),
-                       {{"EVENT", "motor_answers"}});
+        journal_.write(LogLevel::notice, JournalEvent::motor_answers,
+                       "the motor answers on " + motor.line_in_words());
     else
-        journal_.write(LogLevel::warning, motor.loss_in_words(), {{"EVENT", "motor_lost"}});
+        journal_.write(LogLevel::warning, JournalEvent::motor_lost, motor.loss_in_words(),
+                       cause_field(gateway::SafeReason::link_down));
 }
 
 }  // namespace nplc::boards

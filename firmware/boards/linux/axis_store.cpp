@@ -63,24 +63,25 @@ void AxisStore::check_owner(const std::string& path) {
             if (!owner_->is_anothers()) break;
             permission_ = first_run;
             journal_.write(
-                LogLevel::error,
+                LogLevel::error, JournalEvent::store_of_another,
                 fmt::format("{} is the store of axis {}; if it is to be this one's, look at its table "
                             "and settings, then `nanoctl run`",
                             path, owner_->owner()));
             break;
         case StoreOwner::Found::damaged:
             permission_ = bad_mark;
-            journal_.write(LogLevel::error, path + ": what says whose it is is damaged");
+            journal_.write(LogLevel::error, JournalEvent::store_lost,
+                           path + ": what says whose it is is damaged");
             break;
         case StoreOwner::Found::blank:
             permission_ = is_lost_ ? lost : first_run;
             if (is_lost_ || !has_run_here) break;
             permission_ = marker_->is_old() ? given : lost;
             if (marker_->is_old())
-                journal_.write(LogLevel::notice,
+                journal_.write(LogLevel::notice, JournalEvent::new_store,
                                "is of a version before: it may start by itself, as it did there");
             else
-                journal_.write(LogLevel::error,
+                journal_.write(LogLevel::error, JournalEvent::store_lost,
                                path + " is blank, though the axis had one; what was stored is lost");
             break;
     }
@@ -99,11 +100,12 @@ void AxisStore::look_for_traces() {
         trace_ = gateway::StoreTrace::anothers;
     } else if (since) {
         trace_ = gateway::StoreTrace::lost;
-        journal_.write(LogLevel::error,
+        journal_.write(LogLevel::error, JournalEvent::store_lost,
                        fmt::format("its store was lost (it was in use since {}): waits for `nanoctl run`",
                                    date_of(*since)));
     } else {
-        journal_.write(LogLevel::notice, "new here: waits for a first run command, `nanoctl run`");
+        journal_.write(LogLevel::notice, JournalEvent::new_store,
+                       "new here: waits for a first run command, `nanoctl run`");
     }
 }
 
@@ -124,7 +126,7 @@ std::string AxisStore::check_marker(const std::string& folder, const std::string
 }
 
 std::string AxisStore::replace_lost_store(const std::string& path) {
-    journal_.write(LogLevel::error,
+    journal_.write(LogLevel::error, JournalEvent::store_lost,
                    path +
                        " is missing, and with it what was stored; upload the table again, and set and "
                        "keep the settings, or put a copy there while the service is stopped");
@@ -155,12 +157,12 @@ bool AxisStore::was_cut_off(const BoardStart& board) const {
     const bool of_this_boot = marker_->of_this_boot();
     if (marker_->found() == Found::crashed || (is_cut_off && of_this_boot)) return true;
     if (board.by_watchdog && !(of_this_boot && marker_->found() == Found::ended)) {
-        journal_.write(LogLevel::error, "a watchdog has reset the board");
+        journal_.write(LogLevel::error, JournalEvent::board_reset, "a watchdog has reset the board");
         return true;
     }
     if (is_cut_off)
         journal_.write(
-            LogLevel::notice,
+            LogLevel::notice, JournalEvent::board_reset,
             "the board has restarted in the middle of a run, and no watchdog says that it did this: a power "
             "cut");
     return is_cut_off && board.power_cut_waits;

@@ -48,16 +48,22 @@ void put_field(std::string& message, std::string_view name, const std::string& v
 }
 
 /// In the journal's native protocol.
-std::string journal_message(LogLevel level, const std::string& text, const JournalFields& fields) {
+std::string journal_message(LogLevel level, const EventKey& event, const std::string& text,
+                            const JournalFields& fields) {
     std::string message;
     put_field(message, "MESSAGE", text);
     put_field(message, "PRIORITY", std::to_string(static_cast<int>(level)));
     put_field(message, "SYSLOG_IDENTIFIER", "nanoplc");
+    put_field(message, "NANOPLC_EVENT", event.text);
     for (const JournalField& field : fields) put_field(message, "NANOPLC_" + field.name, field.value);
     return message;
 }
 
 }  // namespace
+
+JournalFields cause_field(gateway::SafeReason reason) {
+    return {{"CAUSE", std::string(registers::gateway::key_of_log_code(static_cast<std::uint8_t>(reason)))}};
+}
 
 Journal::Journal(LogLevel most) : most_(most), is_journal_(stderr_is_journal()) {
     const char* other = std::getenv("NANOPLC_JOURNAL_SOCKET");
@@ -68,10 +74,11 @@ Journal::~Journal() {
     if (socket_ >= 0) ::close(socket_);
 }
 
-void Journal::write(LogLevel level, const std::string& text, const JournalFields& fields) {
+void Journal::write(LogLevel level, const EventKey& event, const std::string& text,
+                    const JournalFields& fields) {
     if (!writes(level)) return;
     if (socket_ >= 0) {
-        const std::string message = journal_message(level, text, fields);
+        const std::string message = journal_message(level, event, text, fields);
         const ssize_t sent = ::send(socket_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent == static_cast<ssize_t>(message.size())) return;
     }

@@ -3,6 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "gateway/vocabulary.h"
+#include "journal_event.h"
+
 namespace nplc::boards {
 
 /// Numbered as in the journal.
@@ -15,6 +18,8 @@ struct JournalField {
     std::string value;
 };
 using JournalFields = std::vector<JournalField>;
+/// CAUSE, a cause of the safe state: what the machine cannot do without.
+JournalFields cause_field(gateway::SafeReason reason);
 
 /// Lines for the operator on standard error. If that is the journal they are sent with their level and
 /// fields, or, where the journal does not accept that, with the level prefix <3>, which it strips.
@@ -27,7 +32,8 @@ class Journal {
     Journal& operator=(const Journal&) = delete;
 
     /// Never blocks on the journal.
-    void write(LogLevel level, const std::string& text, const JournalFields& fields = {});
+    void write(LogLevel level, const EventKey& event, const std::string& text,
+               const JournalFields& fields = {});
     bool writes(LogLevel level) const { return level <= most_; }
 
   private:
@@ -40,11 +46,10 @@ class Journal {
 class AxisJournal {
   public:
     AxisJournal(Journal& journal, const std::string& axis) : journal_(journal), axis_(axis) {}
-    void write(LogLevel level, const std::string& text, JournalFields fields = {}) {
+    void write(LogLevel level, const EventKey& event, const std::string& text, JournalFields fields = {}) {
         fields.push_back({"AXIS", axis_});
-        journal_.write(level, axis_ + ": " + text, fields);
+        journal_.write(level, event, axis_ + ": " + text, fields);
     }
-    Journal& journal() { return journal_; }
 
   private:
     Journal& journal_;

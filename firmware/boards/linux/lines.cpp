@@ -12,8 +12,7 @@ constexpr base::Milliseconds kBetweenTriesToOpen{250};
 
 }  // namespace
 
-std::string ReconnectingUart::open(const std::string& who, const hal_linux::UartSettings& settings) {
-    who_ = who;
+std::string ReconnectingUart::open(const hal_linux::UartSettings& settings) {
     path_ = settings.path;
     uart_.reset();  // the port is held exclusively
     uart_ = hal_linux::Uart::absent(settings);
@@ -22,10 +21,13 @@ std::string ReconnectingUart::open(const std::string& who, const hal_linux::Uart
     return problem_;
 }
 
-bool ReconnectingUart::look(Journal& journal, base::Instant now) {
+bool ReconnectingUart::look(AxisJournal& journal, const JournalFields& fields, base::Instant now) {
+    const auto tell = [&](const std::string& problem) {
+        journal.write(LogLevel::error, JournalEvent::port_gone, problem, fields);
+    };
     if (!uart_->gone()) return false;
     if (retry_at_ == base::kNever) {
-        tell(journal, problem_.empty() ? path_ + " is gone; plug the adapter in again" : problem_);
+        tell(problem_.empty() ? path_ + " is gone; plug the adapter in again" : problem_);
         retry_at_ = now;
     }
     if (now < retry_at_) return false;
@@ -33,15 +35,11 @@ bool ReconnectingUart::look(Journal& journal, base::Instant now) {
     const std::string before = std::exchange(problem_, uart_->reopen());
     if (problem_.empty()) {
         retry_at_ = base::kNever;
-        journal.write(LogLevel::notice, who_ + ": " + path_ + " is back");
+        journal.write(LogLevel::notice, JournalEvent::port_back, path_ + " is back");
         return true;
     }
-    if (!before.empty() && before != problem_) tell(journal, problem_);
+    if (!before.empty() && before != problem_) tell(problem_);
     return false;
-}
-
-void ReconnectingUart::tell(Journal& journal, const std::string& problem) {
-    journal.write(LogLevel::error, who_ + ": " + problem);
 }
 
 namespace {
@@ -55,16 +53,15 @@ CanState without_degrees(CanState state) {
 
 }  // namespace
 
-void ReconnectingCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
-    who_ = who;
+void ReconnectingCan::open(const hal_linux::CanSettings& settings) {
     interface_ = settings.interface;
     can_ = hal_linux::SocketCan::absent(settings);
     retry_at_ = base::kNever;
     problem_ = can_->reopen();
 }
 
-void ReconnectingCan::look(Journal& journal, base::Instant now) {
-    tell_state(journal);
+void ReconnectingCan::look(AxisJournal& journal, const JournalFields& fields, base::Instant now) {
+    tell_state(journal, fields);
     tell_problem(journal);
     if (!can_->gone()) {
         retry_at_ = base::kNever;
@@ -73,45 +70,41 @@ void ReconnectingCan::look(Journal& journal, base::Instant now) {
     if (retry_at_ != base::kNever && now < retry_at_) return;
     retry_at_ = now + kBetweenTriesToOpen;
     const std::string before = std::exchange(problem_, can_->reopen());
-    if (problem_.empty()) return tell_state(journal);
+    if (problem_.empty()) return tell_state(journal, fields);
     if (!before.empty() && before != problem_)
-        journal.write(LogLevel::error, fmt::format("{}: {}", who_, problem_));
+        journal.write(LogLevel::error, JournalEvent::port_gone, problem_, fields);
 }
 
-void ReconnectingCan::tell_problem(Journal& journal) {
+void ReconnectingCan::tell_problem(AxisJournal& journal) {
     if (can_->state() != CanState::bus_off || can_->restart_problem().empty() ||
         can_->restart_problem() == told_problem_)
         return;
     told_problem_ = can_->restart_problem();
-    journal.write(LogLevel::info, fmt::format("{}: {}", who_, told_problem_));
+    journal.write(LogLevel::info, JournalEvent::bus_state, told_problem_);
 }
 
-void ReconnectingCan::tell_state(Journal& journal) {
-    if (can_->gone() != told_gone_) {
-        told_gone_ = can_->gone();
-        if (!told_gone_)
-            journal.write(LogLevel::notice, fmt::format("{}: {} is back", who_, interface_));
-        else
-            journal.write(LogLevel::error,
-                          fmt::format("{}: {}", who_,
-                                      problem_.empty() ? interface_ + " is gone; plug the adapter in again"
-                                                       : problem_));
-        told_ = CanState::down;
-    }
+void ReconnectingCan::tell_presence(AxisJournal& journal, const JournalFields& fields) {
+    if (can_->gone() == told_gone_) return;
+    told_gone_ = can_->gone();
+    told_ = CanState::down;
+    if (!told_gone_) return journal.write(LogLevel::notice, JournalEvent::port_back, interface_ + " is back");
+    journal.write(LogLevel::error, JournalEvent::port_gone,
+                  problem_.empty() ? interface_ + " is gone; plug the adapter in again" : problem_, fields);
+}
+
+void ReconnectingCan::tell_state(AxisJournal& journal, const JournalFields& fields) {
+    tell_presence(journal, fields);
     const CanState state = without_degrees(can_->state());
     if (told_gone_ || state == told_) return;
     told_ = state;
-    if (state == CanState::active) {
-        journal.write(LogLevel::notice, fmt::format("{}: {} takes part in the bus", who_, interface_));
-    } else if (state == CanState::bus_off) {
-        journal.write(LogLevel::error,
-                      fmt::format("{}: {} is off the bus; look at its bit rate, its wires and the 120 Ohm at "
-                                  "both ends; it is restarted",
-                                  who_, interface_));
-    } else {
-        journal.write(LogLevel::error, fmt::format("{}: {} is down; as root: ip link set {} up", who_,
-                                                   interface_, interface_));
-    }
+    if (state == CanState::active)
+        return journal.write(LogLevel::notice, JournalEvent::bus_state,
+                             interface_ + " takes part in the bus");
+    const std::string text =
+        state == CanState::bus_off
+            ? " is off the bus; look at its bit rate, its wires and the 120 Ohm at both ends; it is restarted"
+            : fmt::format(" is down; as root: ip link set {} up", interface_);
+    journal.write(LogLevel::error, JournalEvent::bus_state, interface_ + text, fields);
 }
 
 }  // namespace nplc::boards

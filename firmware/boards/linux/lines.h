@@ -16,18 +16,16 @@ namespace nplc::boards {
 class ReconnectingUart {
   public:
     /// Empty, or a one-line error: then the port is missing until look() finds it.
-    std::string open(const std::string& who, const hal_linux::UartSettings& settings);
+    std::string open(const hal_linux::UartSettings& settings);
     hal_linux::Uart& uart() { return *uart_; }
     bool gone() const { return uart_->gone(); }
     /// True if it has come back, with another descriptor. Logs its loss and its return.
-    bool look(Journal& journal, base::Instant now);
+    /// `fields`: of the message about its loss.
+    bool look(AxisJournal& journal, const JournalFields& fields, base::Instant now);
     /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
-    void tell(Journal& journal, const std::string& problem);
-
-    std::string who_;
     std::string path_;
     std::string problem_;  ///< error of the last attempt to open it; empty: none
     std::unique_ptr<hal_linux::Uart> uart_;
@@ -39,17 +37,18 @@ class ReconnectingUart {
 class ReconnectingCan {
   public:
     /// An interface that is down can be opened; one that cannot be opened is missing until look() finds it.
-    void open(const std::string& who, const hal_linux::CanSettings& settings);
+    void open(const hal_linux::CanSettings& settings);
     hal_linux::SocketCan& can() { return *can_; }
-    void look(Journal& journal, base::Instant now);
+    /// `fields`: of the messages that it is gone, down or off the bus.
+    void look(AxisJournal& journal, const JournalFields& fields, base::Instant now);
     /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
-    void tell_state(Journal& journal);
-    void tell_problem(Journal& journal);
+    void tell_presence(AxisJournal& journal, const JournalFields& fields);
+    void tell_state(AxisJournal& journal, const JournalFields& fields);
+    void tell_problem(AxisJournal& journal);
 
-    std::string who_;
     std::string interface_;
     std::string problem_;  ///< error of the last attempt to open it; empty: none
     std::unique_ptr<hal_linux::SocketCan> can_;

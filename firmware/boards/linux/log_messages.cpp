@@ -117,12 +117,15 @@ LogMessage of_set_points(Event event, std::uint16_t detail) {
 
 }  // namespace
 
+EventKey event_of(const gateway::EventLog::Entry& entry) {
+    const std::string key(registers::gateway::key_of_log_code(entry.event));
+    return EventKey(key.empty() ? std::to_string(entry.event) : key);
+}
+
 JournalFields fields_of(const gateway::EventLog::Entry& entry) {
     constexpr std::uint8_t kFirstEvent = static_cast<std::uint8_t>(Event::started);
-    const std::string key(registers::gateway::key_of_log_code(entry.event));
-    JournalFields fields{{"EVENT", key.empty() ? std::to_string(entry.event) : key},
-                         {"STEP", std::to_string(entry.step)}};
-    if (entry.event < kFirstEvent && entry.event != 0) fields.push_back({"CAUSE", key});
+    JournalFields fields{{"STEP", std::to_string(entry.step)}};
+    if (entry.event < kFirstEvent && entry.event != 0) fields.push_back({"CAUSE", event_of(entry).text});
     if (entry.detail != 0) fields.push_back({"DETAIL", std::to_string(entry.detail)});
     return fields;
 }

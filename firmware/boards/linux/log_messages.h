@@ -12,7 +12,9 @@ struct LogMessage {
     LogLevel level;
     std::string text;
 };
-/// Fields for searching the journal: EVENT, CAUSE of a safe state, STEP, DETAIL.
+/// Its key, or its number.
+EventKey event_of(const gateway::EventLog::Entry& entry);
+/// Fields for searching the journal besides EVENT: CAUSE of a safe state, STEP, DETAIL.
 JournalFields fields_of(const gateway::EventLog::Entry& entry);
 /// Text of a log entry for the operator: the event, and for a fault the remedy.
 LogMessage in_words(const gateway::EventLog::Entry& entry);

@@ -4,8 +4,8 @@
 
 namespace nplc::boards {
 
-void MactalkPart::open(const std::string& who, const std::string& path) {
-    static_cast<void>(port_.emplace().open(who, {.path = path, .baud = 19'200}));
+void MactalkPart::open(const std::string& path) {
+    static_cast<void>(port_.emplace().open({.path = path, .baud = 19'200}));
 }
 
 ports::SerialPort* MactalkPart::start(motor::Motor& motor, std::uint8_t address) {
@@ -16,11 +16,12 @@ ports::SerialPort* MactalkPart::start(motor::Motor& motor, std::uint8_t address)
 
 void MactalkPart::look(const gateway::Gateway& sequence, AxisJournal& journal, base::Instant now) {
     if (!line_) return;
-    port_->look(journal.journal(), now);
+    port_->look(journal, {}, now);
     const bool is_wanted = sequence.stop_unconfirmed() && !motor::link_is_usable(motor_->link());
     if (!line_->stop(is_wanted, now)) return;
     motor_->give_up_stop();
-    journal.write(LogLevel::notice, "the motor was stopped over its MacTalk port");
+    journal.write(LogLevel::notice, JournalEvent::stop_confirmed,
+                  "the motor was stopped over its MacTalk port");
 }
 
 base::Instant MactalkPart::next_look(base::Instant now) const {

@@ -14,7 +14,7 @@ namespace nplc::boards {
 class MactalkPart {
   public:
     /// A port that cannot be opened is missing until look() finds it.
-    void open(const std::string& who, const std::string& path);
+    void open(const std::string& path);
     /// For the user port, with a new driver; null: not wired.
     ports::SerialPort* start(motor::Motor& motor, std::uint8_t address);
 

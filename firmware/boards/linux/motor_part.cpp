@@ -7,15 +7,14 @@
 
 namespace nplc::boards {
 
-void MotorPart::open(const std::string& who, const MotorConfig& config, std::uint32_t set_baud) {
+void MotorPart::open(const MotorConfig& config, std::uint32_t set_baud) {
     config_ = config;
     if (config.is_on_can()) {
-        if (!can_) can_.emplace().open(who, {.interface = config.can.text, .bitrate = config.bitrate});
+        if (!can_) can_.emplace().open({.interface = config.can.text, .bitrate = config.bitrate});
         return;
     }
     const std::uint32_t baud = config.baud.value_or(set_baud);
-    static_cast<void>(
-        uart_.emplace().open(who, {.path = config.port.text, .baud = baud, .rs485 = config.rs485}));
+    static_cast<void>(uart_.emplace().open({.path = config.port.text, .baud = baud, .rs485 = config.rs485}));
 }
 
 motor::Motor& MotorPart::start(const store::SettingValues& values) {
@@ -74,9 +73,10 @@ void MotorPart::ignore(hal_linux::EventLoop& loop) {
     if (uart_) loop.ignore(uart_->uart().descriptor());
 }
 
-bool MotorPart::look(Journal& journal, base::Instant now) {
-    if (uart_) return uart_->look(journal, now);
-    can_->look(journal, now);
+bool MotorPart::look(AxisJournal& journal, base::Instant now) {
+    const JournalFields fields = cause_field(gateway::SafeReason::link_down);
+    if (uart_) return uart_->look(journal, fields, now);
+    can_->look(journal, fields, now);
     return false;
 }
 

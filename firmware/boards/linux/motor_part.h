@@ -18,7 +18,7 @@ class MotorPart {
   public:
     /// Opens the line; a serial line has `set_baud` unless the configuration gives a speed. A line that
     /// cannot be opened is silent until look() finds it.
-    void open(const std::string& who, const MotorConfig& config, std::uint32_t set_baud);
+    void open(const MotorConfig& config, std::uint32_t set_baud);
     /// A new driver on the open line, as after a power-up.
     motor::Motor& start(const store::SettingValues& values);
     bool has_driver() const { return motor_ != nullptr; }
@@ -31,7 +31,7 @@ class MotorPart {
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     void ignore(hal_linux::EventLoop& loop);
     /// To be called after the driver's poll: logs changes of the line. True if it has another descriptor.
-    bool look(Journal& journal, base::Instant now);
+    bool look(AxisJournal& journal, base::Instant now);
     base::Instant next_look() const { return uart_ ? uart_->next_look() : can_->next_look(); }
     std::string line_in_words() const { return config_.line_in_words(); }
     /// Text for a link that has not come up, and for a lost one.

@@ -66,7 +66,7 @@ bool PanelPart::read_secret(const LocatedText& file, std::string& secret) {
     if (!file.is_there()) return true;
     const auto [text, error] = faces::read_secret(file.text, kMostPanelSecret);
     secret = text;
-    if (!error.empty()) journal_.write(LogLevel::error, "no panel: " + error);
+    if (!error.empty()) journal_.write(LogLevel::error, JournalEvent::face_missing, "no panel: " + error);
     return error.empty();
 }
 
@@ -88,13 +88,14 @@ void PanelPart::open(const std::vector<std::unique_ptr<Axis>>& axes) {
         list.push_back({&axes[i]->model(), model.family->is_translated() ? std::string(model.name) : ""});
     }
     auto opened = panel::Panel::open(options, list, &names_, nullptr);
-    if (!opened.panel) return journal_.write(LogLevel::error, "no panel: " + opened.error);
+    if (!opened.panel)
+        return journal_.write(LogLevel::error, JournalEvent::face_missing, "no panel: " + opened.error);
     panel_ = std::move(opened.panel);
     panel_->start();
-    journal_.write(LogLevel::notice, wanted.token_file.is_there()
-                                         ? fmt::format("panel: {}", panel_->url())
-                                         : fmt::format("panel: {}, token: {} (until the next start)",
-                                                       panel_->url(), panel_->token()));
+    journal_.write(LogLevel::notice, JournalEvent::face_open,
+                   wanted.token_file.is_there() ? fmt::format("panel: {}", panel_->url())
+                                                : fmt::format("panel: {}, token: {} (until the next start)",
+                                                              panel_->url(), panel_->token()));
 }
 
 }  // namespace nplc::boards

@@ -97,8 +97,9 @@ std::vector<std::string> faces_in_words(const Config& config) {
 void PlantPart::open(faces::Axes axes, base::Instant now) {
     axes_ = std::move(axes);
     for (const Mistake& warning : plant_warnings(config_))
-        journal_.write(LogLevel::warning, fmt::format("configuration, line {}: {}: {}", warning.line,
-                                                      warning.key, warning.text));
+        journal_.write(
+            LogLevel::warning, JournalEvent::configuration,
+            fmt::format("configuration, line {}: {}: {}", warning.line, warning.key, warning.text));
     if (config_.modbus.listen.is_there()) add_modbus();
     if (config_.modbus.rtu_port.is_there()) add_modbus_rtu();
     if (config_.metrics.listen.is_there()) add_metrics();
@@ -114,20 +115,21 @@ void PlantPart::look(base::Instant now) {
         std::string error;
         face.running = face.open(where, error);
         if (face.running) {
-            journal_.write(LogLevel::notice, fmt::format("{}: {}", face.name, where));
+            journal_.write(LogLevel::notice, JournalEvent::face_open,
+                           fmt::format("{}: {}", face.name, where));
             continue;
         }
         again_ = now + kBetweenTries;
         if (!std::exchange(face.was_told, true))
-            journal_.write(LogLevel::error, fmt::format("{}: {}; tries again", face.name, error));
+            journal_.write(LogLevel::error, JournalEvent::face_missing,
+                           fmt::format("{}: {}; tries again", face.name, error));
     }
 }
 
 /// The journal is written from any thread.
 modbus::Settings PlantPart::telling(modbus::Settings settings) {
     settings.tell = [this](const std::string& axis, const std::string& text) {
-        journal_.write(LogLevel::warning, fmt::format("{}: {}", axis, text),
-                       {{"AXIS", axis}, {"EVENT", "master_silent"}});
+        AxisJournal(journal_, axis).write(LogLevel::warning, JournalEvent::master_silent, text);
     };
     return settings;
 }
@@ -159,8 +161,9 @@ void PlantPart::add_mqtt() {
                           mqtt::Options options = config_.mqtt.options;
                           options.orders.folder = config_.state_directory;
                           options.tell = [this](bool is_error, const std::string& text) {
-                              journal_.write(is_error ? LogLevel::warning : LogLevel::notice, "MQTT: " + text,
-                                             {{"EVENT", is_error ? "mqtt_lost" : "mqtt"}});
+                              journal_.write(is_error ? LogLevel::warning : LogLevel::notice,
+                                             is_error ? JournalEvent::mqtt_lost : JournalEvent::mqtt,
+                                             "MQTT: " + text);
                           };
                           auto opened = mqtt::Client::open(options, axes_);
                           error = opened.error;

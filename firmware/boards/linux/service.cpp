@@ -83,7 +83,8 @@ std::string Service::open() {
         hal_linux::DeviceWatchdog::any_has_reset_board() || (device_ && device_->has_reset_board()),
         power_cut_waits(config_.power_cut_waits, tells_resets)};
     if (const std::string& fault = commissioned_.fault(); !fault.empty())
-        journal_.write(LogLevel::warning, fault + "; which axes were in use before is not known");
+        journal_.write(LogLevel::warning, JournalEvent::bad_list,
+                       fault + "; which axes were in use before is not known");
     const base::Instant now = clock_.now();
     for (const AxisConfig& config : config_.axes) {
         axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add(), commissioned_));
@@ -103,19 +104,19 @@ std::string Service::open() {
 
 void Service::set_up_real_time() {
     for (const std::string& missed : hal_linux::set_up_real_time(config_.real_time))
-        journal_.write(LogLevel::warning, missed);
+        journal_.write(LogLevel::warning, JournalEvent::no_real_time, missed);
 }
 
 int Service::run() {
     if (const std::string error = open(); !error.empty()) {
-        journal_.write(LogLevel::error, error);
+        journal_.write(LogLevel::error, JournalEvent::service_failed, error);
         for (const auto& axis : axes_) axis->write_safe_outputs();
         if (device_) static_cast<void>(device_->disarm());
         return kNoDevice;
     }
     set_up_real_time();
     service_->ready();
-    journal_.write(LogLevel::notice,
+    journal_.write(LogLevel::notice, JournalEvent::service_started,
                    fmt::format("started with {} {}", axes_.size(), axes_.size() == 1 ? "axis" : "axes"));
     serve_until_signal();
     end_in_order();
@@ -157,7 +158,7 @@ void Service::show_status() {
 void Service::tell_of_list() {
     const auto outcome = commissioned_.poll();
     if (outcome && !outcome->empty())
-        journal_.write(LogLevel::warning,
+        journal_.write(LogLevel::warning, JournalEvent::bad_list,
                        *outcome + "; an axis whose folder is lost will be taken for a new one");
 }
 
@@ -167,15 +168,11 @@ void Service::serve_until_signal() {
         tell_of_list();
         show_status();
         if (const auto signal = loop_->signal()) {
-            journal_.write(LogLevel::notice, fmt::format("ends: {}", ::strsignal(*signal)));
+            journal_.write(LogLevel::notice, JournalEvent::service_ends,
+                           fmt::format("ends: {}", ::strsignal(*signal)));
             return;
         }
     }
-}
-
-void Service::tell_unstopped(const Axis& axis, const std::string& why) {
-    journal_.write(LogLevel::warning, axis.name() + ": the motor " + why +
-                                          "; it may be moving. The next start waits for `nanoctl run`");
 }
 
 void Service::end_in_order() {
@@ -195,8 +192,6 @@ void Service::end_in_order() {
             axis->mark_clean_shutdown();
             continue;
         }
-        tell_unstopped(*axis, axis->motor_answers() ? "has not confirmed the stop"
-                                                    : "does not answer and could not be told to stop");
         axis->note_unstopped_end();
     }
     last_resort.fill(nullptr);
@@ -204,7 +199,8 @@ void Service::end_in_order() {
     plant_.close();
     axes_.clear();
     if (!device_) return;
-    if (const std::string error = device_->disarm(); !error.empty()) journal_.write(LogLevel::warning, error);
+    if (const std::string error = device_->disarm(); !error.empty())
+        journal_.write(LogLevel::warning, JournalEvent::watchdog_failed, error);
 }
 
 }  // namespace nplc::boards

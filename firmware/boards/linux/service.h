@@ -54,7 +54,6 @@ class Service {
     void set_up_real_time();
     void serve_until_signal();
     void end_in_order();
-    void tell_unstopped(const Axis& axis, const std::string& why);
     void wait_and_serve(base::Instant latest);
     void show_status();
     void tell_of_list();

@@ -18,7 +18,7 @@ std::optional<StopMessages::Message> StopMessages::look(const Look& look, base::
              "the motor has not confirmed the stop for 1 s: it may be moving; look at the machine, "
              "and at the motor's supply and its line; the stop is repeated until it is confirmed, or "
              "until `nanoctl give-up-stop`"},
-            "stop_unconfirmed"};
+            JournalEvent::stop_unconfirmed};
     }
     if (!warn_at_) return std::nullopt;
     is_logged_ = is_logged_ || look.is_logged;
@@ -35,9 +35,9 @@ std::optional<StopMessages::Message> StopMessages::look(const Look& look, base::
             {LogLevel::notice,
              fmt::format("the stop is given up{}{}: THE MOTOR MAY BE MOVING, it has not confirmed it",
                          look.operator_name.empty() ? "" : " by ", look.operator_name)},
-            "stop_given_up"};
+            JournalEvent::stop_given_up};
     if (!was_told) return std::nullopt;
-    return Message{{LogLevel::notice, "the motor has confirmed the stop now"}, "stop_confirmed"};
+    return Message{{LogLevel::notice, "the motor has confirmed the stop now"}, JournalEvent::stop_confirmed};
 }
 
 void StopMessages::begin(const Look& look, base::Instant now) {

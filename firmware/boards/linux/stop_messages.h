@@ -26,7 +26,7 @@ class StopMessages {
         std::string_view operator_name{};  ///< empty: none
     };
     struct Message : LogMessage {
-        const char* event;  ///< field EVENT
+        JournalEvent event;
     };
 
     /// To be called with a new log.

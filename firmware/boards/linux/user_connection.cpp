@@ -55,11 +55,11 @@ std::string UserConnection::open_server(const AxisConfig& config, bool at_once, 
 std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint32_t stored_baud) {
     const std::uint32_t configured = config.settings.get(store::Setting::user_baud);
     const std::string& path = config.user_port.text;
-    std::string error = uart_.emplace().open(config.name, {.path = path, .baud = stored_baud});
+    std::string error = uart_.emplace().open({.path = path, .baud = stored_baud});
     if (error.empty() || stored_baud == configured) return error;
-    if (!uart_->open(config.name, {.path = path, .baud = configured}).empty()) return error;
+    if (!uart_->open({.path = path, .baud = configured}).empty()) return error;
     journal_.write(
-        LogLevel::warning,
+        LogLevel::warning, JournalEvent::setting_unused,
         fmt::format("{}; the configuration's {} baud are used: set user_baud anew", error, configured));
     return {};
 }
@@ -97,7 +97,7 @@ void UserConnection::tell_unwanted(base::Instant now) {
     if (now < tell_again_) return;
     const auto tell = [&](unsigned count, unsigned& told, const char* what) {
         if (count == told) return;
-        journal_.write(LogLevel::warning,
+        journal_.write(LogLevel::warning, JournalEvent::client_refused,
                        fmt::format("{}: {}, {} times since the start", server_->name(), what, count));
         told = count;
         tell_again_ = now + kBetweenWarnings;
@@ -108,7 +108,7 @@ void UserConnection::tell_unwanted(base::Instant now) {
 }
 
 bool UserConnection::look_for_serial_port(base::Instant now) {
-    return uart_ && uart_->look(journal_.journal(), now);
+    return uart_ && uart_->look(journal_, {}, now);
 }
 
 base::Instant UserConnection::next_look() const {
