@@ -4,6 +4,7 @@
 usage: nanoplc_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq EXAMPLE.toml SLOW_DISK.so
 """
 
+import contextlib
 import grp
 import os
 import re
@@ -12,12 +13,14 @@ import socket
 import stat
 import subprocess
 import sys
+import threading
 import time
 import unittest
 
 import service_case
 from device_case import Terminal
 from macsim_test import read_request, value_in
+from patience import until
 from service_case import LONG, ServiceCase
 
 EXAMPLE = SLOW_DISK = ""
@@ -408,24 +411,24 @@ class Telling(ServiceCase):
         stream = self.path("journal")
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as journal, open(stream, "wb") as lines:
             journal.bind(stream + ".socket")
-            journal.settimeout(LONG)
             status = os.fstat(lines.fileno())
             environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}",
                            "NANOPLC_JOURNAL_SOCKET": stream + ".socket"}
             with subprocess.Popen([service_case.NANOPLC, "--config", self.write(self.axis(table=self.table))], stderr=lines,
-                                  env=environment) as process:
-
+                                  env=environment) as process, contextlib.ExitStack() as at_end:
+                at_end.callback(process.kill)
                 seen = []
 
+                def read():
+                    """Without a pause: the socket holds ten messages, and the service waits for none."""
+                    while message := journal.recv(65536):
+                        seen.append(dict(line.split("=", 1) for line in message.decode().splitlines()))
+
+                reader = threading.Thread(target=read, daemon=True)
+                reader.start()
+
                 def first_with(field, value):
-                    """Has come, or comes."""
-                    while not any(fields.get(field) == value for fields in seen):
-                        try:
-                            seen.append(dict(line.split("=", 1) for line in journal.recv(65536).decode().splitlines()))
-                        except TimeoutError:
-                            process.kill()
-                            raise
-                    return next(fields for fields in seen if fields.get(field) == value)
+                    return until(lambda: next((fields for fields in seen if fields.get(field) == value), None), lambda: seen)
 
                 self.assertEqual(first_with("NANOPLC_EVENT", "motor_answers")["NANOPLC_AXIS"], "x")
                 self.moves()
@@ -443,6 +446,9 @@ class Telling(ServiceCase):
                 self.assertEqual((unstopped["NANOPLC_AXIS"], unstopped["NANOPLC_CAUSE"]), ("x", "link_down"), unstopped)
                 self.assertIn("could not be told to stop", unstopped["MESSAGE"])
                 process.wait(LONG)
+                with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as end:
+                    end.sendto(b"", stream + ".socket")
+                reader.join(LONG)
                 for fields in seen:
                     self.assertIn("NANOPLC_EVENT", fields)
                     self.assertEqual(fields["MESSAGE"].startswith("x: "), "NANOPLC_AXIS" in fields, fields)
