@@ -229,7 +229,9 @@ Time World::next_poll() {
 void World::poll_gateway() {
     ++polls_;
     serve_set_points();
+    if (renews_forces_) controller_->sequence().renew_forces(instant());
     controller_->poll(instant());
+    renews_forces_ = renews_forces_ && controller_->sequence().forces().any();
     follow_orders();
     line_.service(now_);
     if (drive_) drive_->service(now_);

@@ -78,7 +78,39 @@ void World::gateway(action::Gateway what) {
         case action::Gateway::restart:
             start_gateway(gateway::StartCause::power_up);
             return;
+        case action::Gateway::safe:
+            controller_->sequence().enter_safe_state_by_command(instant());
+            follow_orders();
+            return;
+        case action::Gateway::hold:
+            static_cast<void>(controller_->sequence().hold());
+            return;
+        case action::Gateway::step:
+            static_cast<void>(controller_->sequence().step_once());
+            return;
+        case action::Gateway::scan:
+            static_cast<void>(controller_->sequence().scan_once());
+            return;
     }
+}
+
+void World::set_breakpoints(const action::Breakpoints& where) {
+    wake();
+    controller_->sequence().set_breakpoints(where.steps);
+}
+
+/// The scenario renews its forces, as a client does that stays.
+void World::force(const action::ForceSignals& what) {
+    wake();
+    gateway::Gateway& sequence = controller_->sequence();
+    registers::gateway::Force force = what.outputs ? sequence.forces().outputs() : sequence.forces().inputs();
+    const auto mask = static_cast<std::uint8_t>(what.releases ? force.mask & ~unsigned{what.mask}
+                                                              : force.mask | unsigned{what.mask});
+    force.levels = static_cast<std::uint8_t>((force.levels & ~unsigned{what.mask}) | what.levels);
+    if (what.releases && mask == force.mask) return;
+    force.mask = mask;
+    what.outputs ? sequence.force_outputs(force, instant()) : sequence.force_inputs(force, instant());
+    renews_forces_ = renews_forces_ || !what.releases;
 }
 
 /// In sequence: each waits until the previous one is stored.

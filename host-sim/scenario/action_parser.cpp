@@ -169,10 +169,59 @@ bool ActionParser::fault(action::SpoilLine& spoil) {
 }
 
 void ActionParser::gateway(Actions& list, Time after) {
-    if (reader_.take("stop")) return add(list, after, action::Gateway::stop);
-    if (reader_.take("run")) return add(list, after, action::Gateway::run);
-    reader_.want("restart", "gateway stop, gateway run, or gateway restart");
-    add(list, after, action::Gateway::restart);
+    using What = action::Gateway;
+    constexpr std::array<std::pair<std::string_view, What>, 7> kWords{{{"stop", What::stop},
+                                                                       {"run", What::run},
+                                                                       {"restart", What::restart},
+                                                                       {"safe", What::safe},
+                                                                       {"hold", What::hold},
+                                                                       {"step", What::step},
+                                                                       {"scan", What::scan}}};
+    for (const auto& [word, what] : kWords) {
+        if (reader_.take(word)) return add(list, after, what);
+    }
+    if (reader_.take("break")) return breakpoints(list, after);
+    if (reader_.take("force")) return force(list, after);
+    if (reader_.take("release")) return release(list, after);
+    reader_.fail(
+        "gateway stop, gateway safe, gateway run, gateway hold, gateway step, gateway scan, gateway restart, "
+        "gateway break, gateway force or gateway release");
+}
+
+void ActionParser::breakpoints(Actions& list, Time after) {
+    action::Breakpoints where;
+    if (!reader_.take("none")) {
+        do {
+            where.steps |= std::uint64_t{1} << static_cast<unsigned>(conditions_.step_number());
+        } while (reader_.take("and"));
+    }
+    add(list, after, where);
+}
+
+action::ForceSignals ActionParser::signal_to_force() {
+    const Value signal = conditions_.signal("an input or output, such as gateway force IN0 := 1");
+    return {.outputs = signal.kind == Value::Kind::output,
+            .mask = static_cast<std::uint8_t>(1U << signal.index)};
+}
+
+void ActionParser::force(Actions& list, Time after) {
+    action::ForceSignals forced = signal_to_force();
+    action::ForceSignals released = forced;
+    released.releases = true;
+    reader_.want(":=", ":= and the level, such as gateway force IN0 := 1");
+    if (conditions_.level()) forced.levels = forced.mask;
+    add_for(list, after, forced, released);
+}
+
+void ActionParser::release(Actions& list, Time after) {
+    constexpr std::uint8_t kAll = 0xFF;
+    if (reader_.take("all")) {
+        add(list, after, action::ForceSignals{.outputs = false, .mask = kAll, .releases = true});
+        return add(list, after, action::ForceSignals{.outputs = true, .mask = kAll, .releases = true});
+    }
+    action::ForceSignals released = signal_to_force();
+    released.releases = true;
+    add(list, after, released);
 }
 
 void ActionParser::seed(Actions& list, Time after) {

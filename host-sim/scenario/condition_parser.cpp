@@ -429,4 +429,13 @@ unsigned ConditionParser::input(std::string_view use) {
     return found->index;
 }
 
+Value ConditionParser::signal(std::string_view use) {
+    const std::string_view word = reader_.peek().text;
+    const auto found = lookup(word);
+    if (!found || found->kind != Value::Kind::output)
+        return {.kind = Value::Kind::input, .index = input(use)};
+    reader_.next();
+    return *found;
+}
+
 }  // namespace nplc::sim

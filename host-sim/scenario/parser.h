@@ -105,6 +105,10 @@ class ConditionParser {
     bool level();
     /// An input by its own or the program's name; `use` names its purpose for messages.
     unsigned input(std::string_view use);
+    /// An input or output.
+    Value signal(std::string_view use);
+    /// A step by its name or number.
+    double step_number();
     /// A shaft position, in counts.
     std::int64_t place();
     /// The unit after `per`, in counts: a revolution, or the machine's unit.
@@ -131,7 +135,6 @@ class ConditionParser {
     Measure point_measure(const set_points::SetPoint& point, std::string_view what);
     /// A number that may be counts or the machine's unit says which.
     void want_unit(Value::Kind kind, const Measure& measure) const;
-    double step_number();
     void check_step(unsigned number) const;
     Condition group();
     Measure measure(std::string_view what, Value::Kind kind);
@@ -230,6 +233,10 @@ class ActionParser {
     bool above_or_below(std::string_view example);
     int whole(std::string_view what, double least, double most, std::string_view mistake);
     void gateway(Actions& list, Time after);
+    void breakpoints(Actions& list, Time after);
+    action::ForceSignals signal_to_force();
+    void force(Actions& list, Time after);
+    void release(Actions& list, Time after);
     // set_point_parser.cpp
     void needs_set_points() const;
     std::string no_such_point(std::string_view name) const;

@@ -24,6 +24,8 @@ struct KindOfAction {
     What operator()(const action::SpoilLine&) const { return What::line; }
     What operator()(const action::Seed&) const { return What::line; }
     What operator()(const action::Gateway&) const { return What::gateway; }
+    What operator()(const action::Breakpoints&) const { return What::gateway; }
+    What operator()(const action::ForceSignals&) const { return What::gateway; }
     What operator()(const action::SetPoints&) const { return What::gateway; }
     What operator()(const action::Log&) const { return What::log; }
     What operator()(const action::End&) const { return What::end; }
@@ -187,6 +189,8 @@ void ScenarioRunner::perform(const Planned& planned) {
         void operator()(const action::PowerMotor& a) const { self.stage_.power_motor(a.on); }
         void operator()(const action::OnMotor& a) const { self.stage_.act(a); }
         void operator()(const action::Gateway& a) const { self.stage_.gateway(a); }
+        void operator()(const action::Breakpoints& a) const { self.stage_.set_breakpoints(a); }
+        void operator()(const action::ForceSignals& a) const { self.stage_.force(a); }
         void operator()(const action::SetPoints& a) const { self.stage_.set_points(a); }
         void operator()(const action::Log& a) const { self.stage_.log(a.text); }
         void operator()(const action::End&) const { self.ended_ = true; }

@@ -105,6 +105,10 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         at 4 s motor logic 15.5 V, motor temperature 90, motor encoder broken
         never TORQUE > 300 or SHAFT < -3 rev
         at 5 s gateway stop, after 1 s gateway run, after 1 s gateway restart
+        at 5 s gateway safe, gateway hold, gateway step, gateway scan
+        at 5 s gateway break Idle and 2, after 1 s gateway break none
+        at 5 s gateway force Start := 1 for 2 s, gateway force Lamp := 0, after 1 s gateway release Lamp
+        at 5 s gateway release all
         expect at 3 s step = Idle
         at 3 s expect step = 1
         expect P_IST = 49152 +- 2 counts
@@ -159,6 +163,34 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
     EXPECT_EQ(parsed.scenario.follow.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));
     EXPECT_TRUE(parsed.scenario.can_end());
+}
+
+TEST(ScenarioParser, ForcesAndBreakpoints) {
+    const auto actions = [](const std::string& text) {
+        const ParsedScenario parsed = parse("at 1 s " + text);
+        for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << text << ": " << found.message;
+        return parsed.scenario.at.at(0).actions;
+    };
+    const auto force = [](const Action& one) { return std::get<action::ForceSignals>(one.what); };
+    const Actions input = actions("gateway force IN2 := 1 for 2 s");
+    ASSERT_EQ(input.size(), 2U);
+    EXPECT_FALSE(force(input[0]).outputs);
+    EXPECT_EQ(force(input[0]).mask, 4);
+    EXPECT_EQ(force(input[0]).levels, 4);
+    EXPECT_EQ(input[1].after, Time(2s));
+    EXPECT_TRUE(force(input[1]).releases);
+    EXPECT_EQ(force(input[1]).mask, 4);
+    const Actions output = actions("gateway force OUT1 := 0");
+    EXPECT_TRUE(force(output[0]).outputs);
+    EXPECT_EQ(force(output[0]).mask, 2);
+    EXPECT_EQ(force(output[0]).levels, 0);
+    EXPECT_EQ(actions("gateway release all").size(), 2U);
+    const Actions where = actions("gateway break 1 and 62");
+    EXPECT_EQ(std::get<action::Breakpoints>(where[0].what).steps, std::uint64_t{1} << 62 | 2U);
+    EXPECT_EQ(std::get<action::Breakpoints>(actions("gateway break none")[0].what).steps, 0U);
+    for (const char* text : {"gateway", "gateway pause", "gateway force Start", "gateway force IN7 := 1",
+                             "gateway break", "gateway break 63", "gateway release"})
+        EXPECT_FALSE(parse(std::string("at 1 s ") + text).mistakes.empty()) << text;
 }
 
 TEST(ScenarioParser, DelaysOfAListAddUp) {

@@ -359,6 +359,57 @@ TEST_F(WorldRun, TheGatewayCanBeStoppedRunAndRestarted) {
     EXPECT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
 }
 
+TEST_F(WorldRun, TheGatewayIsHeldStepsAndStopsAtABreakpoint) {
+    using gateway::RunState;
+    const auto state = [&] { return world_.gateway().run_state(); };
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.gateway(action::Gateway::hold);
+    ASSERT_TRUE(run_until([&] { return state() == RunState::held; }, 2s));
+    world_.set_input(0, true);
+    run_to(world_.now() + 200ms);
+    EXPECT_EQ(step(), 1);
+    world_.gateway(action::Gateway::step);
+    ASSERT_TRUE(run_until([&] { return step() == 2 && state() == RunState::held; }, 3s));
+    world_.set_breakpoints({.steps = 1U << 3});
+    world_.gateway(action::Gateway::run);
+    ASSERT_TRUE(run_until([&] { return state() == RunState::held; }, 6s));
+    EXPECT_EQ(step(), 3);
+    EXPECT_TRUE(world_.gateway().at_breakpoint());
+    world_.gateway(action::Gateway::safe);
+    EXPECT_EQ(world_.gateway().safe_reason(), gateway::SafeReason::safe_command);
+    EXPECT_EQ(world_.gateway().breakpoints(), 0U);
+}
+
+// A client's forces end 5 s after it has fallen silent; a scenario's last until it releases them.
+TEST_F(WorldRun, AScenariosForcesLastUntilTheyAreReleased) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.force({.outputs = true, .mask = 4, .levels = 4});
+    world_.force({.outputs = false, .mask = 2, .levels = 2});
+    run_to(12s);
+    EXPECT_EQ(world_.board().outputs(), 4);
+    EXPECT_EQ(world_.gateway().inputs(), 2);
+    EXPECT_EQ(world_.board().inputs(), 0) << "the terminals are what they were";
+    world_.force({.outputs = true, .mask = 4, .releases = true});
+    run_to(world_.now() + 10ms);
+    EXPECT_EQ(world_.board().outputs(), 0);
+    EXPECT_EQ(world_.gateway().inputs(), 2);
+    world_.gateway(action::Gateway::restart);
+    run_to(world_.now() + 10ms);
+    EXPECT_EQ(world_.gateway().inputs(), 0);
+}
+
+TEST_F(WorldRun, AScenarioDoesNotKeepAClientsForces) {
+    world_.force({.outputs = true, .mask = 4, .levels = 4});
+    world_.force({.outputs = true, .mask = 4, .releases = true});
+    run_to(world_.now() + 10ms);
+    world_.controller().sequence().force_outputs({.mask = 2, .levels = 2}, world_.instant());
+    world_.force({.outputs = true, .mask = 1, .releases = true});
+    run_to(world_.now() + 4s);
+    EXPECT_EQ(world_.gateway().forces().outputs().mask, 2);
+    run_to(world_.now() + 2s);
+    EXPECT_EQ(world_.gateway().forces().outputs().mask, 0);
+}
+
 TEST(World, TheSameOptionsGiveTheSameRun) {
     const auto run = [](std::uint64_t seed) {
         WorldOptions options;

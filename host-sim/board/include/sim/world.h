@@ -140,6 +140,8 @@ class World final : public Stage, private gateway::Observer {
     void power_motor(bool on) override;
     void act(const action::OnMotor& what) override;
     void gateway(action::Gateway what) override;
+    void set_breakpoints(const action::Breakpoints& where) override;
+    void force(const action::ForceSignals& what) override;
     void set_points(const action::SetPoints& asked) override;
     void log(const std::string& text) override;
 
@@ -198,6 +200,7 @@ class World final : public Stage, private gateway::Observer {
     Time motor_asks_{0};  ///< next time that the motor's transmitter is polled
     bool motor_powered_ = true;
     bool motor_fails_ = false;
+    bool renews_forces_ = false;  ///< those that the scenario began
     std::vector<SentOrder> orders_;
     std::size_t orders_given_ = 0;
     std::deque<std::size_t> on_their_way_;

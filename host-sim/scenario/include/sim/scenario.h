@@ -94,7 +94,18 @@ struct MotorTemperature {
     int celsius = 0;  ///< ambient temperature of a MAC800
 };
 struct BreakEncoder {};  ///< of a MAC800, until its power is switched off
-enum class Gateway : std::uint8_t { stop, run, restart };
+enum class Gateway : std::uint8_t { stop, run, restart, safe, hold, step, scan };
+/// Breakpoints in place of those that were there. Bit n: step n.
+struct Breakpoints {
+    std::uint64_t steps = 0;
+};
+/// Forces on the signals of `mask`, until they are released or the gateway ends all forces.
+struct ForceSignals {
+    bool outputs = false;  ///< else inputs
+    std::uint8_t mask = 0;
+    std::uint8_t levels = 0;
+    bool releases = false;  ///< no longer forced
+};
 /// A request to the gateway's set-points, as written to SET_POINT_WRITE.
 struct SetPoints {
     std::vector<std::uint8_t> request;
@@ -118,8 +129,8 @@ struct Action {
                  action::Seed, action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
                  action::StopMotor, action::FreeMotor, action::MotorSensor, action::SetDriveInput,
                  action::DriveSwitch, action::MotorAnalogue, action::MotorPulses, action::MotorSupply,
-                 action::MotorTemperature, action::BreakEncoder, action::Gateway, action::SetPoints,
-                 action::Log, action::End>
+                 action::MotorTemperature, action::BreakEncoder, action::Gateway, action::Breakpoints,
+                 action::ForceSignals, action::SetPoints, action::Log, action::End>
         what;
     bool takes_back = false;  ///< what the action before it did
 };

@@ -23,6 +23,8 @@ class Stage {
     virtual void spoil_line(const action::SpoilLine& /*faults*/) {}
     virtual void seed(std::uint64_t /*value*/) {}
     virtual void gateway(action::Gateway /*what*/) {}
+    virtual void set_breakpoints(const action::Breakpoints& /*where*/) {}
+    virtual void force(const action::ForceSignals& /*what*/) {}
     virtual void set_points(const action::SetPoints& /*asked*/) {}
     virtual void log(const std::string& /*text*/) {}
     virtual void fail_motor() = 0;
