@@ -122,6 +122,8 @@ test("names of twelve letters are not torn on a laptop's screen while one operat
   await operate(page, machine.token);
   const lines = await page.$$eval(".signal-name", (all) => all.map((name) => [name.textContent, Math.round(name.getBoundingClientRect().height / parseFloat(getComputedStyle(name).lineHeight))]));
   assert.deepEqual(lines.slice(0, 6), kNames.map((name) => [name, 1]));
+  const apart = await page.$$eval(".signals li:has(.press)", (all) => all.filter((row) => row.querySelector("select").getBoundingClientRect().top !== row.querySelector(".press").getBoundingClientRect().top).length);
+  assert.equal(apart, 0, "what belongs to a signal stands side by side");
   await page.context().close();
   await machine.stop();
 });

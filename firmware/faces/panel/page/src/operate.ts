@@ -2,15 +2,20 @@
 import { byId, h, setAttribute, setClass, setText } from "./dom";
 import type { Axis } from "./state";
 import type { Answer, Wire } from "./wire";
+import { hex } from "./words";
 
 const kTokenKey = "nanoplc-token";
 const kStopPatience = 1000; // ms, as PROTOCOL.md asks for
 // Of an answer: firmware/gateway/REGISTERS.md.
 const kNoTable = 6;
+const kMoving = 7;
 const kNotRunning = 17;
 const kTooLate = 19;
 const kSeatTaken = 22;
 const kNotConfirmed = 43;
+const kStillWait = 5000; // ms for the motor to come to rest, as nanoctl has it
+const kStillPause = 100; // ms
+const kStoredDiffers = 13; // bit of STATUS
 const kMostNotices = 4; // that pass by themselves
 
 export class Operation {
@@ -42,6 +47,7 @@ export class Operation {
     for (const button of document.querySelectorAll<HTMLElement>("[data-stop]")) button.addEventListener("click", () => void this.stop(button.dataset.stop!));
     for (const name of ["run", "step", "scan"]) byId(`do-${name}`).addEventListener("click", () => void this.command(name));
     byId("do-give-up").addEventListener("click", () => this.giveUpStop());
+    byId("do-activate").addEventListener("click", () => this.offerStored());
     byId("do-reset-error").addEventListener("click", () => void this.resetError());
     setInterval(() => this.alive(), 1000);
   }
@@ -168,7 +174,7 @@ export class Operation {
     await Promise.all((this.axis ? [this.axis.info.name] : this.stoppable).map((axis) => this.stopAxis(name, axis)));
   }
 
-  private async stopAxis(name: string, axis: string): Promise<void> {
+  private async stopAxis(name: string, axis: string): Promise<boolean> {
     const of = this.axis && this.stoppable.length < 2 ? "" : `${axis}: `;
     const late = setTimeout(() => this.doubt(axis, name, `${of}No answer to ${name} yet: the machine may still be running.`), kStopPatience);
     const answer = await this.wireAsk({ do: "command", name, axis });
@@ -178,6 +184,7 @@ export class Operation {
       this.notice(of + (name === "hold" ? "The sequence is held." : "Stopped; the outputs have their safe values."));
     } else if (answer.code === kNotRunning || answer.code === kNoTable) this.notice(`${of}${name}: ${answer.text}`, true);
     else this.doubt(axis, name, `${of}${name}: ${answer.text}.${answer.code === kNotConfirmed ? "" : " Not confirmed: the machine may still be running."}`);
+    return answer.result === "done";
   }
 
   /** Stays until the axis is seen to stand still, or somebody dismisses it. */
@@ -207,6 +214,23 @@ export class Operation {
     if (!this.operates) return void this.notice("Giving a stop up needs operating: press Operate… first.");
     this.notice("Once given up, the motor is not told to stop any more. Make sure that it stands, or is without power.", true, {
       label: "Give the stop up", act: () => void this.command("give_up_stop") });
+  }
+
+  private offerStored(): void {
+    const axis = this.axis!;
+    this.notice(`The stored table (CRC-32 as uploaded ${hex(axis.r.STORED_CRC ?? 0)}) becomes the active one. That stops the sequence.`, false, {
+      label: "Stop and use it", act: () => void this.useStored(axis.info.name) });
+  }
+
+  private async useStored(axis: string): Promise<void> {
+    if (!(await this.stopAxis("stop", axis))) return;
+    const end = performance.now() + kStillWait;
+    for (;;) {
+      const answer = await this.wireAsk({ do: "command", name: "activate", axis });
+      if (answer.result === "done") return void this.notice("The stored table is active. Run it when the machine is clear.");
+      if (answer.code !== kMoving || performance.now() >= end) return void this.notice(`use stored table: ${answer.text}`, true);
+      await new Promise((resolve) => setTimeout(resolve, kStillPause));
+    }
   }
 
   /** In the motor; the sequence's own way is command 01h. */
@@ -245,6 +269,7 @@ export class Operation {
     enable("do-scan", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
     enable("do-reset-error", may);
     enable("do-give-up", may);
+    byId("do-activate").hidden = !axis.status(kStoredDiffers);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
     setText(byId("seat"), this.wire.state !== "open" ? "Who operates is not known" : axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
   }

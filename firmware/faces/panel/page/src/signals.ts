@@ -40,7 +40,7 @@ export class Signals {
     choice.addEventListener("change", () =>
       this.actions.force(isInput, bit, choice.value === "" ? null : choice.value === "1" ? 1 : 0));
     const press = isInput ? h("button", { class: "sim-only press", type: "button", onclick: () => this.actions.press(bit) }, "switch") : null;
-    return { element: h("li", {}, lamp, name, note, choice, press), lamp, name, note, choice, press };
+    return { element: h("li", {}, lamp, name, note, h("span", { class: "signal-acts" }, choice, press)), lamp, name, note, choice, press };
   }
 
   update(axis: Axis): void {

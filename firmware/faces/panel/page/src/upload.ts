@@ -172,7 +172,7 @@ export class Upload {
       return setText(this.text, `Not done. ${answer.text}`);
     }
     this.dialog.close();
-    this.operation.notice(activate ? "The table is stored and active. Run it when the machine is clear." : "The table is stored. It becomes active when the gateway starts again, or by “Stop, store and make active” of the same file.");
+    this.operation.notice(activate ? "The table is stored and active. Run it when the machine is clear." : "The table is stored. It becomes active when the gateway starts again, or by “Use stored table…”.");
   }
 
   private download(): void {
