@@ -77,7 +77,60 @@ std::string fault() {
            "END_IF\nEND_STEP\n";
 }
 
+std::string machine_header(unsigned units) {
+    std::string moving;
+    for (unsigned unit = 0; unit < units; ++unit) {
+        const std::string n = std::to_string(unit);
+        moving += (unit == 0 ? "Move" : ", Move") + n + ", Back" + n;
+    }
+    return "PROGRAM Machine\nMOTOR MAC140;\nSCALE 1 rev = 5 mm;\n"
+           "CONST Pitch := 120 mm / 2;\nCONST Limit := T#3s;\nCONST Settled := T#200ms;\n"
+           "VAR_INPUT Start AT IN0 : BOOL; Guard AT IN1 : BOOL; Ack AT IN2 : BOOL; Shut AT IN3 : BOOL; "
+           "END_VAR\n"
+           "VAR_OUTPUT Lamp AT OUT0 : BOOL; Clamp AT OUT1 : BOOL; Valve AT OUT2 : BOOL; Alarm AT OUT3 : "
+           "BOOL; "
+           "END_VAR\n"
+           "VAR_MOTOR Home AT P1 := 0 mm; Place AT P2 := Pitch; Fast AT V1 := 1500 rpm; "
+           "Soft AT A1 := 20000 rpm/s; END_VAR\n"
+           "ON ERROR NEXT := Fault;\nGROUP Moving: " +
+           moving +
+           ";\nON Guard IN Moving NEXT := Fault;\nOUT Alarm IN Fault;\n"
+           "SEQUENCE Close(VAR_OUTPUT Jaw, VAR_INPUT Closed, CONST Time)\nSTEP Closing:\nENTRY SET Jaw;\n"
+           "IF Closed WITHIN Time THEN RETURN; ELSE NEXT := Fault; END_IF\nEND_STEP\nEND_SEQUENCE\n"
+           "POWER_UP\nINIT(Fast, Soft);\nNEXT := Wait;\nEND_POWER_UP\n"
+           "STEP Wait:\nIF Start AND NOT Guard THEN NEXT := Move0; END_IF\nEND_STEP\n";
+}
+
+std::string machine_unit(unsigned unit, const std::string& next) {
+    const std::string n = std::to_string(unit), time = std::to_string(10 + unit);
+    return "STEP Move" + n + ":\nENTRY POSITION(Place);\nIF INPOS WITHIN Limit + T#" + time +
+           "ms THEN NEXT := Press" + n + "; ELSE NEXT := Fault; END_IF\nEND_STEP\nSTEP Press" + n +
+           ":\nOUT Lamp;\nENTRY SET Clamp;\nIF R_TRIG(Start) THEN NEXT := Hold" + n +
+           "; END_IF\nEND_STEP\nSTEP Hold" + n +
+           ":\nIF Shut AND NOT Start FOR Settled THEN CALL Close(Valve, Shut, 2 * T#" + time +
+           "ms); NEXT := Back" + n + "; END_IF\nEND_STEP\nSTEP Back" + n +
+           ":\nENTRY POSITION(Home);\nOUT Lamp BLINKING T#500ms;\n"
+           "IF INPOS THEN RESET Clamp, Valve; NEXT := " +
+           next + ";\nELSIF F_TRIG(Ack) THEN NEXT := Fault; END_IF\nEND_STEP\n";
+}
+
 }  // namespace
+
+std::string machine_program(unsigned units, unsigned rests) {
+    const auto rest = [&](unsigned n) { return n < rests ? "Rest" + std::to_string(n) : "Wait"; };
+    std::string text = machine_header(units);
+    for (unsigned unit = 0; unit < units; ++unit)
+        text += machine_unit(unit, unit + 1 < units ? "Move" + std::to_string(unit + 1) : rest(0));
+    for (unsigned n = 0; n < rests; ++n) {
+        text += "STEP " + rest(n) + ":\nIF Shut WITHIN Limit THEN NEXT := " + rest(n + 1) +
+                "; ELSE NEXT := Fault; END_IF\nEND_STEP\n";
+    }
+    return text +
+           "STEP Fault:\nOWN ERROR;\nALLOW W037 BECAUSE 'Ack is a key';\nENTRY RESET Clamp, Valve;\nENTRY "
+           "STOP;\n"
+           "IF ANY ERROR AND Ack AND NOT Guard THEN RESET_ERROR; NEXT := POWER_UP; END_IF\nEND_STEP\n"
+           "END_PROGRAM\n";
+}
 
 std::string full_program() {
     std::string text = header() + "POWER_UP\n";
