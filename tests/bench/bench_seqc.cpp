@@ -37,6 +37,7 @@ bool has_size(const char* what, const std::string& source, std::size_t steps, st
 
 bool check() {
     bool right = has_size("full program", full_program(), kFullSteps, kFullTerms);
+    right = has_size("full machine", machine_program(kMachineUnits, kMachineRests), kFullSteps, 0) && right;
     right = has_size("worst program", worst_program(), kFullSteps, 0) && right;
     return has_size("pick_and_place", example("pick_and_place.seq"), 6, 0) && right;
 }
@@ -53,9 +54,12 @@ int run_all(int argc, char** argv) {
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    for (auto [name, source] : {std::pair{"compile/pick_and_place", example("pick_and_place.seq")},
-                                std::pair{"compile/full program", full_program()},
-                                std::pair{"compile/worst program", worst_program()}}) {
+    for (auto [name, source] :
+         {std::pair{"compile/pick_and_place", example("pick_and_place.seq")},
+          std::pair{"compile/full program", full_program()},
+          std::pair{"compile/half a machine", machine_program(kMachineUnits / 2, kMachineRests / 2)},
+          std::pair{"compile/full machine", machine_program(kMachineUnits, kMachineRests)},
+          std::pair{"compile/worst program", worst_program()}}) {
         benchmark::RegisterBenchmark(name, compile, source)->Unit(benchmark::kMillisecond);
     }
     benchmark::RunSpecifiedBenchmarks();
