@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "registers/scale.h"
 #include "sim/midi_stage.h"
+#include "sim/without_effect.h"
 
 namespace nplc::sim {
 namespace {
@@ -67,13 +69,18 @@ std::string MidiVirtual::note(const motor::AnyDriver& driver) const {
 }
 
 void MidiVirtual::sample() {
-    const std::int32_t now = shaft();
-    speed_ = now - before_;
+    const std::int64_t now = shaft();
+    speed_ = static_cast<std::int32_t>(now - before_);
     before_ = now;
 }
 
-std::int32_t MidiVirtual::shaft() const {
-    return midi::counts_of_increments(options_.model, static_cast<std::int32_t>(drive_.module().shaft()));
+/// A shaft that slips for minutes leaves 32 bits.
+std::int64_t MidiVirtual::shaft() const {
+    const std::int64_t turned = drive_.module().shaft();
+    const std::int64_t per_rev = midi::facts_of(options_.model).increments_per_rev;
+    const auto rest = static_cast<std::int32_t>(turned % per_rev);
+    return turned / per_rev * registers::scale_of(registers::Model::mac140).counts_per_rev +
+           midi::counts_of_increments(options_.model, rest);
 }
 
 void MidiVirtual::fill(Snapshot& snapshot) const {
@@ -97,6 +104,10 @@ bool MidiVirtual::fail() {
 
 void MidiVirtual::store(const StoredRegister& parameter) {
     drive_.module().execute(parameter.number, 0, parameter.bits);
+}
+
+std::string MidiVirtual::without_effect(const Action& action) const {
+    return sim::without_effect(drive_.module(), drive_.module().is_on(), action);
 }
 
 std::string_view MidiVirtual::act(const action::OnMotor& what) {

@@ -1,5 +1,7 @@
 #include "sim/virtual_drive.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "registers/family_list.h"
@@ -48,6 +50,10 @@ struct MissingPart {
 
 std::string_view missing_for(const action::OnMotor& what) {
     return std::visit(MissingPart{}, what);
+}
+
+std::string lacks(const registers::DriveModel& model, std::string_view part) {
+    return fmt::format("the virtual {} drive does not have {}", model.family->name(), part);
 }
 
 void spoil(LineDirection& direction, const action::SpoilLine& what) {

@@ -203,7 +203,8 @@ void World::move_mactalk_characters() {
 void World::sample_motor() {
     if (drive_) {
         next_sample_ += drive_->sample_period();
-        if (std::exchange(motor_fails_, false) && !drive_->fail()) drive_has_no("a failure");
+        if (std::exchange(motor_fails_, false) && !drive_->fail())
+            log(lacks(*options_.drive->model, "a failure"));
         move_characters();
         return drive_->sample();
     }

@@ -4,7 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "registers/details.h"
 #include "sim/motor_stage.h"
+#include "sim/without_effect.h"
 #include "sim/world.h"
 
 namespace nplc::sim {
@@ -33,7 +35,21 @@ void World::spoil_line(const action::SpoilLine& faults) {
     if (faults.from_motor) spoil(line_.from_motor(), faults);
 }
 
+/// What is set up before the run begins waits for its motor; later an action without an effect is told.
+void World::tell_without_effect(const Action& action) {
+    if (now_ == Time{0}) return;
+    const std::string why =
+        drive_ ? drive_->without_effect(action) : sim::without_effect(mac_, motor_powered_, action);
+    if (!why.empty()) log(fmt::format("{}: nothing follows: {}", name_of(action), why));
+}
+
+void World::fail_motor() {
+    tell_without_effect({.what = action::FailMotor{}});
+    motor_fails_ = drive_ != nullptr || motor_powered_;
+}
+
 void World::power_motor(bool on) {
+    tell_without_effect({.what = action::PowerMotor{on}});
     if (drive_) return drive_->power(on);
     if (on && !motor_powered_) {
         switch_on(mac_);
@@ -48,8 +64,10 @@ void World::seed(std::uint64_t value) {
 }
 
 void World::act(const action::OnMotor& what) {
+    std::visit([this](const auto& one) { tell_without_effect({.what = one}); }, what);
     if (!drive_) return sim::act(mac_, what);
-    if (const std::string_view missing = drive_->act(what); !missing.empty()) drive_has_no(missing);
+    if (const std::string_view missing = drive_->act(what); !missing.empty())
+        log(lacks(*options_.drive->model, missing));
 }
 
 bool World::shaft_is_blocked() const {
@@ -60,20 +78,19 @@ bool World::shaft_is_blocked() const {
     return is_rigid && load.low_stop->counts >= load.high_stop->counts;
 }
 
-/// Reports the missing part; the scenario goes on.
-void World::drive_has_no(std::string_view what) {
-    log(fmt::format("the virtual {} drive does not have {}", options_.drive->model->family->name(), what));
-}
-
 void World::gateway(action::Gateway what) {
     wake();
     switch (what) {
         case action::Gateway::stop:
+            if (this->gateway().run_state() == gateway::RunState::stopped)
+                log("gateway stop: the sequence is stopped already");
             controller_->sequence().stop(instant());
             follow_orders();
             return;
         case action::Gateway::run:
-            static_cast<void>(controller_->sequence().run());
+            if (const base::Status begun = controller_->sequence().run(); !begun)
+                log(fmt::format("gateway run: refused: {}",
+                                registers::gateway::describe(gateway::result_of(begun.error()))));
             return;
         case action::Gateway::restart:
             start_gateway(gateway::StartCause::power_up);
@@ -145,8 +162,43 @@ void World::serve_set_points() {
     }
 }
 
+namespace {
+
+/// 001 §4.5.6: UV_HANDLE's UV_GO_PASSIVE sets no error.
+bool is_passive_for_undervoltage(const MacMotor& motor, const FamilyBits& bits) {
+    constexpr std::int32_t kUvGoPassive = 2;
+    if ((motor.err_stat() & bits.uv_detect) == 0 || !motor.is_mode(MotorMode::init)) return false;
+    return (motor.read(registers::find(motor.model(), "UV_HANDLE")->number) & kUvGoPassive) != 0;
+}
+
+/// Which errors keep a motor passive, by the manual's names; empty: none.
+std::string faults_in_words(const MacMotor& motor) {
+    constexpr std::uint32_t kInStatusByte = 0x0F;  // 001 §5.2.1.6
+    const FamilyBits& bits = family_bits(motor.model());
+    const std::uint32_t faults = motor.err_stat() & bits.keeps_init;
+    if (faults == 0 && is_passive_for_undervoltage(motor, bits))
+        return "UV_DETECT: the supply is too low, and UV_GO_PASSIVE in UV_HANDLE makes the motor passive; no "
+               "ERROR for the sequence";
+    if (faults == 0) return {};
+    std::string text;
+    for (const registers::Field& field : registers::fields_of(motor.model(), registers::ERR_STAT)) {
+        if ((faults & mask_of(field)) == 0) continue;
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", field.name, field.meaning);
+    }
+    if ((faults & kInStatusByte) == 0)
+        text +=
+            "; no ERROR for the sequence: FastMAC's status tells of I2T_ERR, FLW_ERR, FNC_ERR and UIT_ERR "
+            "only";
+    return text;
+}
+
+}  // namespace
+
 std::string World::motor_note() const {
-    return drive_ ? drive_->note(driver_) : std::string(mac_.note());
+    if (drive_) return drive_->note(driver_);
+    std::string text = motor_powered_ ? faults_in_words(mac_) : std::string();
+    if (text.empty()) text = mac_.note();
+    return text;
 }
 
 void World::log(const std::string& text) {

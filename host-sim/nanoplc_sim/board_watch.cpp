@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 
 namespace nplc::sim {
 namespace {
@@ -57,8 +58,11 @@ void BoardWatch::look() {
         motor_note_ = note;
         if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
     }
-    if (!said_that_it_waits_ && waits_for_motor()) {
-        said_that_it_waits_ = true;
+    const gateway::Gateway& gateway = world_.gateway();
+    const bool waits = gateway.run_state() == gateway::RunState::waiting_for_motor && gateway.scans() == 0;
+    if (!waits) waiting_since_.reset();
+    if (waits && !waiting_since_) waiting_since_ = world_.now();
+    if (!std::exchange(said_that_it_waits_, waits_for_motor()) && said_that_it_waits_) {
         timeline_.alarm(
             "the gateway waits for the motor, which does not answer: no step begins before it does");
     }
@@ -69,9 +73,7 @@ void BoardWatch::look() {
 }
 
 bool BoardWatch::waits_for_motor() const {
-    const gateway::Gateway& gateway = world_.gateway();
-    return world_.now() >= kLongestStart && gateway.run_state() == gateway::RunState::waiting_for_motor &&
-           gateway.scans() == 0;
+    return waiting_since_ && world_.now() - *waiting_since_ >= kLongestStart;
 }
 
 }  // namespace nplc::sim

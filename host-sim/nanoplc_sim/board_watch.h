@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "sim/world.h"
@@ -25,6 +26,7 @@ class BoardWatch {
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;
     std::uint32_t bites_ = 0;
+    std::optional<Time> waiting_since_;
     bool said_that_it_waits_ = false;
 };
 

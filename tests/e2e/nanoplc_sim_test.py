@@ -180,6 +180,15 @@ class Run(Case):
         self.assertEqual(done.returncode, 1)
         self.assertIn("the run ended at 500.000 ms, before that time", done.stdout.decode())
 
+    def test_a_gateway_that_starts_again_is_not_said_to_wait(self):
+        done = self.run_with("at 2 s gateway restart\nend at 3 s\n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn(b"waits for the motor", done.stdout)
+
+    def test_a_stop_and_a_run_at_once_are_no_run_and_that_is_said(self):
+        done = self.run_with("at 1 s gateway stop, gateway run\nend at 2 s\n")
+        self.assertIn(b"gateway run: refused: ", done.stdout)
+
     def test_a_gateway_without_a_motor_is_said_to_wait_for_it(self):
         waits = b"the gateway waits for the motor, which does not answer"
         for missing in ("line cut", "motor power off"):

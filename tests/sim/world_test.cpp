@@ -190,6 +190,80 @@ TEST_F(WorldRun, AMac800FeelsItsSurroundings) {
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
 }
 
+// 004: ERR_STAT bits; 001 §5.2.1.6: the status byte's error bit tells of bits 0 to 3 only.
+TEST_F(WorldRun, AFaultOfAMac800IsSaidInGearModeToo) {
+    const auto note_after = [](const action::OnMotor& what) {
+        WorldOptions options;
+        options.motor = registers::Model::mac800;
+        World big(table(), options);
+        const auto pass = [&big](Time time) {
+            const Time end = big.now() + time;
+            while (big.now() < end) big.step(end);
+        };
+        pass(50ms);
+        big.mac().write(registers::MODE_REG, 3);  // GP_MODE
+        big.act(action::MotorPulses{40'000});
+        pass(200ms);
+        EXPECT_EQ(big.motor_note(), "");
+        big.act(what);
+        pass(300ms);
+        EXPECT_EQ(big.mac().mode(), 0) << "passive";
+        const std::string note = big.motor_note();
+        EXPECT_NE(note.find("no ERROR for the sequence"), std::string::npos) << note;
+        big.power_motor(false);
+        EXPECT_EQ(big.motor_note(), "");
+        return note;
+    };
+    EXPECT_TRUE(note_after(action::MotorSupply{.volts = 500}).starts_with("OV_ERR: "));
+    EXPECT_TRUE(note_after(action::MotorSupply{.volts = 10, .logic = true}).starts_with("U24V_ERR: "));
+    EXPECT_TRUE(note_after(action::MotorTemperature{120}).starts_with("DEGC_ERR: "));
+    EXPECT_TRUE(note_after(action::BreakEncoder{}).starts_with("INDEX_ERR: "));
+}
+
+// 001 §4.5.6: UV_GO_PASSIVE is bit 1 of UV_HANDLE, register 160. U_MIN_SUP is 152, in 53.7 mV: 16 V.
+TEST_F(WorldRun, AMotorThatIsPassiveForUndervoltageIsSaid) {
+    run_to(100ms);
+    world_.mac().write(152, 300);
+    world_.mac().write(160, 2);
+    world_.mac().write(registers::MODE_REG, 2);
+    world_.act(action::MotorSupply{.volts = 10});
+    run_to(500ms);
+    EXPECT_EQ(world_.mac().mode(), 0);
+    EXPECT_TRUE(world_.motor_note().starts_with("UV_DETECT: ")) << world_.motor_note();
+}
+
+TEST_F(WorldRun, AnErrorThatTheSequenceSeesIsSaidToo) {
+    run_to(100ms);
+    world_.fail_motor();
+    run_to(200ms);
+    EXPECT_TRUE(world_.motor_note().starts_with("I2T_ERR: ")) << world_.motor_note();
+    EXPECT_EQ(world_.motor_note().find("no ERROR"), std::string::npos);
+}
+
+TEST_F(WorldRun, WhatDoesNothingIsSaid) {
+    std::vector<std::string> said;
+    world_.on_log([&said](const std::string& text) { said.push_back(text); });
+    world_.act(action::MotorPulses{5'000});
+    EXPECT_TRUE(said.empty()) << "set up before the run begins";
+    run_to(100ms);
+    world_.power_motor(true);
+    world_.power_motor(false);
+    world_.fail_motor();
+    world_.act(action::MotorSupply{.volts = 30});
+    world_.power_motor(true);
+    world_.gateway(action::Gateway::stop);
+    world_.gateway(action::Gateway::stop);
+    world_.gateway(action::Gateway::run);
+    ASSERT_EQ(said.size(), 5U);
+    EXPECT_EQ(said[0], "motor power on: nothing follows: it has its supply already");
+    EXPECT_EQ(said[1], "motor error: nothing follows: it has no supply (motor power off)");
+    EXPECT_EQ(said[2], "motor supply: nothing follows: it has no supply (motor power off)");
+    EXPECT_EQ(said[3], "gateway stop: the sequence is stopped already");
+    EXPECT_TRUE(said[4].starts_with("gateway run: refused: ")) << "the motor has not confirmed the stop yet";
+    run_to(400ms);
+    EXPECT_EQ(world_.mac().err_stat() & 0x0F, 0U) << "the error of before is not kept for later";
+}
+
 // 004, MAN_NO_BRAKE: the output holds while the motor is passive, if a brake is built in. Less than the pull
 // it does not hold.
 TEST_F(WorldRun, AMac800CanHaveABrake) {
@@ -408,6 +482,45 @@ TEST_F(WorldRun, AScenarioDoesNotKeepAClientsForces) {
     EXPECT_EQ(world_.gateway().forces().outputs().mask, 2);
     run_to(world_.now() + 2s);
     EXPECT_EQ(world_.gateway().forces().outputs().mask, 0);
+}
+
+// The gateway's README: a stop command leads to the safe state, and run() starts again from step 0.
+TEST_F(WorldRun, AStopTakesTheOutputsAwayAndARunBeginsWithoutThem) {
+    const auto outputs = [&] { return world_.take_snapshot().outputs; };
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.set_input(0, true);
+    ASSERT_TRUE(run_until([&] { return outputs() == 1; }, 2s)) << "the clamp is shut";
+    world_.gateway(action::Gateway::stop);
+    EXPECT_EQ(outputs(), 0) << "in the same instant";
+    world_.set_input(0, false);
+    run_to(world_.now() + 2s);
+    EXPECT_EQ(outputs(), 0);
+    EXPECT_EQ(world_.mac().v_ist(), 0);
+    world_.gateway(action::Gateway::run);
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
+    run_to(world_.now() + 1s);
+    EXPECT_EQ(outputs(), 0) << "the step that shut it has not come yet";
+    world_.set_input(0, true);
+    EXPECT_TRUE(run_until([&] { return outputs() == 1; }, world_.now() + 1s));
+}
+
+// REGISTERS.md: the safe state overrides forced outputs; a stop does not end forces, a restart does.
+TEST_F(WorldRun, AForceOutlastsAStopAndARunAndNotARestart) {
+    const auto outputs = [&] { return world_.take_snapshot().outputs; };
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    const base::Instant now(std::chrono::duration_cast<base::Microseconds>(world_.now()));
+    world_.controller().sequence().force_outputs({.mask = 4, .levels = 4}, now);
+    EXPECT_EQ(outputs(), 4);
+    world_.gateway(action::Gateway::stop);
+    EXPECT_EQ(outputs(), 0);
+    run_to(world_.now() + 500ms);
+    EXPECT_EQ(outputs(), 0);
+    world_.gateway(action::Gateway::run);
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
+    EXPECT_EQ(outputs(), 4) << "within its five seconds";
+    world_.gateway(action::Gateway::restart);
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
+    EXPECT_EQ(outputs(), 0);
 }
 
 TEST(World, TheSameOptionsGiveTheSameRun) {

@@ -31,14 +31,15 @@ class MidiVirtual final : public VirtualDrive {
     void power(bool on) override { drive_.power(on); }
     bool fail() override;
     void store(const StoredRegister& parameter) override;
+    std::string without_effect(const Action& action) const override;
     std::string_view act(const action::OnMotor& what) override;
 
   private:
     MidiDriveOptions options_;
     MidiDrive drive_;
-    std::int32_t shaft() const;
+    std::int64_t shaft() const;
 
-    std::int32_t before_ = 0;
+    std::int64_t before_ = 0;
     std::int32_t speed_ = 0;
 };
 

@@ -63,9 +63,14 @@ class VirtualDrive {
     virtual bool fail() { return false; }
     /// To be called before the run begins.
     virtual void store(const StoredRegister&) {}
+    /// Why an action that the drive has does nothing now; empty: it does, or nobody knows.
+    virtual std::string without_effect(const Action&) const { return {}; }
     /// Empty, or missing_for() the action.
     virtual std::string_view act(const action::OnMotor& what) { return missing_for(what); }
 };
+
+/// For the timeline: the virtual drive does not have that part; the scenario goes on.
+std::string lacks(const registers::DriveModel& model, std::string_view part);
 
 /// Null for a JVL motor, which is part of World.
 std::unique_ptr<VirtualDrive> make_virtual_drive(const VirtualDriveOptions& options,

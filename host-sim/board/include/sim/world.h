@@ -136,7 +136,7 @@ class World final : public Stage, private gateway::Observer {
     bool shaft_is_blocked() const;
     void spoil_line(const action::SpoilLine& faults) override;
     void seed(std::uint64_t value) override;
-    void fail_motor() override { motor_fails_ = true; }
+    void fail_motor() override;
     void power_motor(bool on) override;
     void act(const action::OnMotor& what) override;
     void gateway(action::Gateway what) override;
@@ -153,7 +153,7 @@ class World final : public Stage, private gateway::Observer {
     Time next_event() const;
     Time next_of_motor() const;
     void start_driver();
-    void drive_has_no(std::string_view what);
+    void tell_without_effect(const Action& action);
     void start_gateway(gateway::StartCause cause);
     void start_table(bool first);
     void move_characters();
