@@ -65,6 +65,10 @@ void ActionParser::action(Actions& list, Time after) {
     if (reader_.take("line")) return line(list, after);
     if (reader_.take("motor")) return motor(list, after);
     if (reader_.take("gateway")) return gateway(list, after);
+    if (reader_.is("set") && conditions_.names().set_points.values.empty() &&
+        conditions_.knows(reader_.peek(1).text))
+        reader_.refuse_next(
+            fmt::format("an input is switched with := and the level; write {} := 1", reader_.peek(1).text));
     if (reader_.is("set")) return set_points(list, after);
     if (reader_.is("recipe")) return recipe(list, after);
     if (reader_.take("seed")) return seed(list, after);
@@ -98,6 +102,25 @@ action::Cancel ActionParser::cancelled() {
 /// A first word that is no signal is probably a misspelt statement.
 void ActionParser::check_known_word() {
     if (conditions_.knows(reader_.peek().text)) return;
+    struct Word {
+        std::string_view word;
+        std::string_view meant;
+    };
+    constexpr std::string_view kPulse = "pulse IN0 50 ms";
+    constexpr std::string_view kTime = "at and the time from the start, such as at 2 s IN0 := 1";
+    constexpr std::array<Word, 8> kWords{
+        {{"wait", kTime},
+         {"delay", kTime},
+         {"sleep", kTime},
+         {"if", "when and what happens, such as when OUT0 rises IN0 := 1"},
+         {"press", kPulse},
+         {"push", kPulse},
+         {"check", "expect and what must hold, such as expect at 2 s OUT0"},
+         {"assert", "expect and what must hold, such as expect at 2 s OUT0"}}};
+    for (const auto& [word, meant] : kWords) {
+        if (reader_.is(word))
+            reader_.refuse_next(fmt::format("\"{}\" is not known here; write {}", word, meant));
+    }
     reader_.refuse_next(
         fmt::format("\"{}\" is not known here; write at, every, when, once, expect, always, never, end or {}",
                     reader_.peek().text, kActions));
@@ -130,6 +153,9 @@ void ActionParser::line(Actions& list, Time after) {
     }
     while (fault(spoil)) {
     }
+    if (reader_.is("for"))
+        reader_.refuse_next(
+            "a bad line has no end of its own; write what ends it, such as after 1 s line clean");
     add(list, after, spoil);
 }
 

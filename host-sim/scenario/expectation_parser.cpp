@@ -14,6 +14,7 @@ Expectation ExpectationParser::expectation(std::optional<Time> at) {
     reader_.take("expect");
     const std::size_t begin = at ? 0 : reader_.mark();
     if (at) {
+        moment_begin_ = reader_.time_begin();
         result.time = at;
         held_condition(result);
     } else if (reader_.take("always")) {
@@ -23,7 +24,7 @@ Expectation ExpectationParser::expectation(std::optional<Time> at) {
     } else if (reader_.take("eventually")) {
         result.kind = Kind::by;
         held_condition(result);
-        if (reader_.take("by")) result.time = reader_.duration("a time after by");
+        if (reader_.take("by")) result.time = moment("a time after by");
     } else if (reader_.take("at")) {
         at_time(result);
         held_condition(result);
@@ -32,6 +33,24 @@ Expectation ExpectationParser::expectation(std::optional<Time> at) {
     }
     result.text = reader_.source_since(begin);
     return result;
+}
+
+Time ExpectationParser::moment(std::string_view what_to_write) {
+    const Time time = reader_.duration(what_to_write);
+    moment_begin_ = reader_.time_begin();
+    return time;
+}
+
+/// Lamp falls within 200 ms after IN0 rises
+void ExpectationParser::refuse_awaited_change(const Event& event) const {
+    if (!reader_.is("within") && !(reader_.starts_duration() && !starts_count())) return;
+    const std::string_view state = std::string_view(event.text).substr(0, event.text.find_last_of(' ') + 1);
+    const bool is_known = event.edge == Event::Edge::rises || event.edge == Event::Edge::falls;
+    reader_.refuse_next(fmt::format(
+        "a change is counted, and a state is awaited; write expect {}within 200 ms after and what happens",
+        !is_known                          ? "Lamp "
+        : event.edge == Event::Edge::falls ? fmt::format("not {}", state)
+                                           : std::string(state)));
 }
 
 void ExpectationParser::held_condition(Expectation& result) {
@@ -57,17 +76,19 @@ void ExpectationParser::all_the_time(Expectation& result) {
 
 void ExpectationParser::take_window(Expectation& result) {
     const Window window = reader_.window();
+    moment_begin_ = reader_.time_begin();
     result.from = window.from;
     result.time = window.until;
 }
 
 void ExpectationParser::at_time(Expectation& result) {
-    if (!reader_.take("end")) result.time = reader_.duration("a time or end, such as expect at 3 s step = 0");
+    if (!reader_.take("end")) result.time = moment("a time or end, such as expect at 3 s step = 0");
 }
 
 void ExpectationParser::event_or_condition(Expectation& result) {
     Event event = conditions_.event();
     if (event.edge != Event::Edge::true_now || starts_count()) {
+        refuse_awaited_change(event);
         result.event = std::move(event);
         return count(result);
     }
@@ -77,7 +98,7 @@ void ExpectationParser::event_or_condition(Expectation& result) {
         at_time(result);
     } else if (reader_.take("by")) {
         result.kind = Kind::by;
-        result.time = reader_.duration("a time after by");
+        result.time = moment("a time after by");
     } else if (reader_.take("within")) {
         result.kind = Kind::within;
         after_event(result);
@@ -124,7 +145,7 @@ void ExpectationParser::count(Expectation& result) {
         result.least = result.most = reader_.times();
     }
     if (reader_.take("by")) {
-        result.time = reader_.duration("a time after by");
+        result.time = moment("a time after by");
     } else {
         take_window(result);
     }

@@ -59,6 +59,8 @@ class Reader {
     [[noreturn]] void refuse_time(const std::string& message) const;
 
     std::size_t mark() const { return position_; }
+    /// Where in the line the time read last begins.
+    std::size_t time_begin() const { return tokens_[time_at_].begin; }
     /// Reads the rest of the line.
     std::string_view rest();
     /// The source from the token at `mark` to the one read last.
@@ -161,6 +163,8 @@ class ExpectationParser {
 
     /// `at`: the time before the word.
     Expectation expectation(std::optional<Time> at);
+    /// Where in the line the moment is written from which on it looks, or at which.
+    std::size_t moment_begin() const { return moment_begin_; }
 
   private:
     void held_condition(Expectation& result);
@@ -173,9 +177,12 @@ class ExpectationParser {
     void of_event(Expectation& result);
     bool starts_count() const;
     void count(Expectation& result);
+    Time moment(std::string_view what_to_write);
+    void refuse_awaited_change(const Event& event) const;
 
     Reader& reader_;
     ConditionParser& conditions_;
+    std::size_t moment_begin_ = 0;
 };
 
 /// The actions of a scenario. All functions throw LineMistake.

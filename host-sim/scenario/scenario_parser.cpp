@@ -16,12 +16,15 @@ constexpr std::size_t kMostMistakes = 1000;  // a file with more is probably not
 /// Statements of one line. Throws LineMistake.
 class LineParser {
   public:
-    LineParser(std::string_view text, int line, const Names& names, Scenario& scenario)
+    /// `moments`: where in its line each expectation names its moment.
+    LineParser(std::string_view text, int line, const Names& names, Scenario& scenario,
+               std::vector<std::size_t>& moments)
         : reader_(text, names),
           conditions_(reader_, names),
           actions_(reader_, conditions_, scenario.recipes),
           line_(line),
-          scenario_(scenario) {}
+          scenario_(scenario),
+          moments_(moments) {}
 
     void parse() {
         if (reader_.at_end()) return;
@@ -146,8 +149,10 @@ class LineParser {
     void expect(std::optional<Time> at = {}) {
         if (conditions_.names().motor_alone)
             reader_.refuse_next("expectations are not checked here; rehearse the scenario with nanoplc-sim");
-        scenario_.expectations.push_back(ExpectationParser(reader_, conditions_).expectation(at));
+        ExpectationParser parser(reader_, conditions_);
+        scenario_.expectations.push_back(parser.expectation(at));
         scenario_.expectations.back().line = line_;
+        moments_.push_back(parser.moment_begin());
     }
 
     void check_inputs() const {
@@ -219,16 +224,20 @@ class LineParser {
     ActionParser actions_;
     int line_;
     Scenario& scenario_;
+    std::vector<std::size_t>& moments_;
 };
 
-void check_expectation_times(ParsedScenario& parsed) {
+/// `columns`: of the moment in each expectation.
+void check_expectation_times(ParsedScenario& parsed, const std::vector<int>& columns) {
     const Scenario& scenario = parsed.scenario;
     if (!scenario.end) return;
-    for (const Expectation& expectation : scenario.expectations) {
+    for (std::size_t i = 0; i < scenario.expectations.size(); ++i) {
+        const Expectation& expectation = scenario.expectations[i];
         const Time latest = expectation.time.value_or(expectation.from);
         if (latest <= *scenario.end) continue;
         parsed.mistakes.push_back(
             {.line = expectation.line,
+             .column = columns[i],
              .message = fmt::format("this looks at {}, but the scenario ends at {}; move one of the two",
                                     in_words(latest), in_words(*scenario.end))});
     }
@@ -327,6 +336,8 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
     ParsedScenario parsed;
     parsed.scenario.file = file;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::vector<std::size_t> moments;
+    std::vector<int> columns;
     int number = 0;
     while (!text.empty()) {
         const auto length = std::min(text.find('\n'), text.size());
@@ -337,14 +348,15 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
                 throw LineMistake{
                     fmt::format("the line is longer than {} characters; write several", kLongestLine)};
             }
-            LineParser(line, number, names, parsed.scenario).parse();
+            LineParser(line, number, names, parsed.scenario, moments).parse();
         } catch (const LineMistake& mistake) {
             parsed.mistakes.push_back({number, column_of(line, mistake.at), with_guess(line, mistake)});
             if (parsed.mistakes.size() == kMostMistakes) return parsed;
         }
+        while (columns.size() < moments.size()) columns.push_back(column_of(line, moments[columns.size()]));
         text.remove_prefix(std::min(length + 1, text.size()));
     }
-    check_expectation_times(parsed);
+    check_expectation_times(parsed, columns);
     check_action_times(parsed);
     std::stable_sort(parsed.mistakes.begin(), parsed.mistakes.end(),
                      [](const Mistake& a, const Mistake& b) { return a.line < b.line; });

@@ -274,7 +274,7 @@ TEST(ScenarioParser, MistakesHaveColumns) {
     EXPECT_EQ(at_column("expect Grip & Lamp"), "13: \"&\" is not known here; write and");
     EXPECT_EQ(at_column("expect Grip || Lamp"), "13: \"|\" is not known here; write or");
     EXPECT_EQ(parse("at x").mistakes[0].place(), "1:4");
-    EXPECT_EQ(parse("expect at 12 s Grip\nend at 10 s").mistakes[0].place(), "1");
+    EXPECT_EQ(parse("expect at 12 s Grip\nend at 10 s").mistakes[0].place(), "1:11");
 }
 
 TEST(ScenarioParser, MistakesInUnits) {
@@ -676,9 +676,42 @@ TEST(ScenarioParser, EveryLineIsJudgedAndCounted) {
 TEST(ScenarioParser, LookingBeyondTheEndIsAMistake) {
     const auto parsed = parse("expect at 12 s Grip\nend at 10 s");
     ASSERT_EQ(parsed.mistakes.size(), 1U);
-    EXPECT_EQ(parsed.mistakes[0].line, 1);
+    EXPECT_EQ(parsed.mistakes[0].place(), "1:11");
     EXPECT_EQ(parsed.mistakes[0].message,
               "this looks at 12 s, but the scenario ends at 10 s; move one of the two");
+}
+
+TEST(ScenarioParser, LookingBeyondTheEndPointsAtItsTime) {
+    const auto place = [](const std::string& line) {
+        const auto parsed = parse(line + "\nend at 10 s");
+        return parsed.mistakes.size() == 1 ? parsed.mistakes[0].place() : "not one mistake";
+    };
+    EXPECT_EQ(place("at 12 s expect Grip"), "1:4");
+    EXPECT_EQ(place("expect eventually Grip by 12 s"), "1:27");
+    EXPECT_EQ(place("expect Grip by 12 s"), "1:16");
+    EXPECT_EQ(place("expect Grip for 1 s at 12 s"), "1:24");
+    EXPECT_EQ(place("  always Grip from 11 s until 12 s"), "1:31");
+    EXPECT_EQ(place("expect not Grip from 12 s"), "1:22");
+}
+
+TEST(ScenarioParser, WhatOthersWriteIsAnsweredWithTheWayItIsDone) {
+    EXPECT_EQ(
+        mistake("expect Grip falls within 1 s after Start rises"),
+        "a change is counted, and a state is awaited; write expect not Grip within 200 ms after and what "
+        "happens");
+    EXPECT_EQ(mistake("expect Grip rises within after Start rises"),
+              "a change is counted, and a state is awaited; write expect Grip within 200 ms after and what "
+              "happens");
+    EXPECT_EQ(mistake("line drop 5 % for 1 s"),
+              "a bad line has no end of its own; write what ends it, such as after 1 s line clean");
+    EXPECT_EQ(mistake("at 1 s press Start"), "\"press\" is not known here; write pulse IN0 50 ms");
+    EXPECT_EQ(mistake("check Grip"),
+              "\"check\" is not known here; write expect and what must hold, such as expect at 2 s OUT0");
+    EXPECT_EQ(mistake("wait 2 s"),
+              "\"wait\" is not known here; write at and the time from the start, such as at 2 s IN0 := 1");
+    EXPECT_EQ(mistake("if Grip then Start := 1"),
+              "\"if\" is not known here; write when and what happens, such as when OUT0 rises IN0 := 1");
+    EXPECT_EQ(mistake("at 1 s set Start"), "an input is switched with := and the level; write Start := 1");
 }
 
 TEST(ScenarioParser, TwoEndsAreAMistake) {
