@@ -136,7 +136,23 @@ TEST(GraphModel, ABareTableNamesStepsByRanges) {
     const GraphModel model = graph_model_of(line.table, nullptr, "file");
     ASSERT_EQ(model.notes.size(), 2U);
     EXPECT_EQ(text_of(model.notes[1].way), "IN0 -> 4");
-    EXPECT_EQ(texts_of(model.boxes[1])[1], "NOT IN1 AND INPOS / TIMER := T#3s -> 2");
+    EXPECT_EQ(texts_of(model.boxes[1])[0], "NOT IN1 AND INPOS / TIMER := T#3s -> 2");
+}
+
+/// The terms of a table exclude each other; what is drawn is read from the top, as the source was.
+TEST(GraphModel, ATableDoesNotRepeatEarlierConditionsInTheNegative) {
+    const Compilation two = test::compiled(
+        "PROGRAM P MOTOR MAC140; ON IN5 IN A, B NEXT := C; STEP A: OWN ERROR; IF IN1 THEN NEXT := B; ELSIF "
+        "IN2 THEN NEXT := C; ELSIF IN3 AND IN4 THEN NEXT := D; END_IF END_STEP "
+        "STEP B: OWN ERROR; IF IN1 THEN NEXT := A; END_IF END_STEP STEP C: OWN ERROR; END_STEP "
+        "STEP D: OWN ERROR; IF IN0 THEN NEXT := A; END_IF END_STEP END_PROGRAM");
+    const GraphModel model = graph_model_of(two.table, &two.symbols, "");
+    for (const GraphModel::Box& box : model.boxes) {
+        for (const GraphModel::Way& way : box.ways)
+            EXPECT_EQ(way.condition.find("NOT "), std::string::npos) << box.name << ": " << way.condition;
+    }
+    EXPECT_EQ(texts_of(model.boxes[1]), (Texts{"IN5 -> 3", "IN1 -> 2", "IN2 -> 3", "IN3 AND IN4 -> 4"}));
+    EXPECT_EQ(texts_of(model.boxes[2]), (Texts{"IN5 -> 3", "IN1 -> 1"}));
 }
 
 TEST(GraphModel, AHelperStepStandsOnTheWay) {

@@ -97,8 +97,9 @@ class Drawing {
         const bool has_order = std::any_of(model_.boxes.begin(), model_.boxes.end(),
                                            [](const GraphModel::Box& box) { return box.ways.size() > 1; });
         if (!has_order) return "";
-        return model_.notes.empty() ? "; in a step the first condition that holds counts"
-                                    : "; notes come first, then the first condition of the step that holds";
+        return model_.notes.empty()
+                   ? "; in a step the first condition that holds counts"
+                   : "; notes come before a step's own conditions; of these the first that holds counts";
     }
 
     /// Motor, scale and terminals, a line each.

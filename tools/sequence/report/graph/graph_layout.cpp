@@ -97,9 +97,10 @@ Lines footer_of(const GraphModel& model, double width) {
     const bool has_order = std::any_of(model.boxes.begin(), model.boxes.end(),
                                        [](const GraphModel::Box& box) { return box.ways.size() > 1; });
     if (has_order)
-        parts.push_back(model.notes.empty()
-                            ? "in a step the first condition that holds counts"
-                            : "notes come first, then the first condition of the step that holds");
+        parts.push_back(
+            model.notes.empty()
+                ? "in a step the first condition that holds counts"
+                : "notes come before a step's own conditions; of these the first that holds counts");
     lines.add(TextKind::footer, parts, "; ", width);
     return lines;
 }

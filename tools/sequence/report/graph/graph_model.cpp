@@ -161,10 +161,13 @@ class Builder {
 
     /// Removes from a table's transitions what the notes say.
     void shorten(std::uint8_t step) {
+        Truth told = covered_[step];
         for (GraphWays::Way& way : ways_[step]) {
-            if (way.is_written) continue;
-            way.when &= ~covered_[step];
-            way.shown.condition = condition_text(way.when, covered_[step], symbols_);
+            if (!way.is_written) {
+                way.when &= ~covered_[step];
+                way.shown.condition = condition_text(way.when, told, symbols_);
+            }
+            told |= way.when;
         }
         std::erase_if(ways_[step], [](const GraphWays::Way& way) { return way.when.none(); });
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "report/table_text.h"
 
@@ -170,6 +171,63 @@ std::size_t GraphWays::place_of(const Written::Branch& branch) const {
     return branch.condition.offset + (is_own ? std::size_t{source_.size()} : 0);
 }
 
+/// The transitions of a table exclude each other. Those with the shortest conditions come first, so that the
+/// others need not name them in the negative; a part of a transition that depends on one bit alone is then a
+/// transition of its own.
+std::vector<StepTransition> GraphWays::simplest_first(std::vector<StepTransition> reactions, Truth told,
+                                                      std::uint8_t step) const {
+    constexpr std::size_t kMost = 12;
+    std::vector<StepTransition> ordered;
+    if (reactions.size() > kMost) return reactions;
+    while (!reactions.empty()) {
+        auto best = reactions.begin();
+        const auto rank = [&](const StepTransition& reaction) {
+            return std::pair(blanks_of(reaction, told), reaction.outcome.next == step);
+        };
+        for (auto it = best + 1; it != reactions.end(); ++it) {
+            if (rank(*it) < rank(*best)) best = it;
+        }
+        if (const auto part = part_before(*best, reactions, told, step)) {
+            ordered.push_back(*part);
+            for (StepTransition& reaction : reactions) reaction.when &= ~part->when;
+        } else {
+            ordered.push_back(*best);
+            reactions.erase(best);
+        }
+        told |= ordered.back().when;
+    }
+    return ordered;
+}
+
+std::size_t GraphWays::blanks_of(const StepTransition& reaction, const Truth& told) const {
+    const std::string text = condition_text(reaction.when & ~told, told, symbols_);
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), ' '));
+}
+
+/// The part of another transition out of the step without which `next` is shorter: all cases of one bit,
+/// without an error.
+std::optional<StepTransition> GraphWays::part_before(const StepTransition& next,
+                                                     const std::vector<StepTransition>& reactions,
+                                                     const Truth& told, std::uint8_t step) const {
+    const std::size_t blanks = blanks_of(next, told);
+    const std::string text = condition_text(next.when & ~told, told, symbols_);
+    if (text.find("NOT ") == std::string::npos || text.find(" AND ") == std::string::npos)
+        return std::nullopt;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        const Truth cases = truth_of_bit(bit) & ~truth_of_bit(kErrorBit) & ~told;
+        if (bit == kErrorBit || cases.none()) continue;
+        for (const StepTransition& other : reactions) {
+            const bool is_part = &other != &next && other.outcome.next != step &&
+                                 (cases & ~other.when).none() && cases != other.when;
+            if (!is_part || blanks_of(next, told | cases) >= blanks) continue;
+            StepTransition part = other;
+            part.when = cases;
+            return part;
+        }
+    }
+    return std::nullopt;
+}
+
 std::vector<GraphWays::Way> GraphWays::ways_of(std::uint8_t step) const {
     const Truth error = truth_of_bit(kErrorBit);
     std::vector<Way> ways;
@@ -188,7 +246,7 @@ std::vector<GraphWays::Way> GraphWays::ways_of(std::uint8_t step) const {
             add(branch.is_idle ? reads : branch.when, shown(*written, branch, told), true, place_of(branch));
         }
     }
-    for (const StepTransition& reaction : reactions_of(machine_, step)) {
+    for (const StepTransition& reaction : simplest_first(reactions_of(machine_, step), told, step)) {
         const Truth rest = reaction.when & ~told;
         const std::uint8_t next = reaction.outcome.next;
         const bool stays_in_box = next != step && box_of(next) == box_of(step);

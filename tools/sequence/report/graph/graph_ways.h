@@ -38,6 +38,12 @@ class GraphWays {
   private:
     std::uint8_t box_of(std::uint8_t step) const;
     std::vector<Way> ways_of(std::uint8_t step) const;
+    std::vector<StepTransition> simplest_first(std::vector<StepTransition> reactions, Truth told,
+                                               std::uint8_t step) const;
+    std::size_t blanks_of(const StepTransition& reaction, const Truth& told) const;
+    std::optional<StepTransition> part_before(const StepTransition& next,
+                                              const std::vector<StepTransition>& reactions, const Truth& told,
+                                              std::uint8_t step) const;
     std::size_t place_of(const Written::Branch& branch) const;
     const Written::Step* written_step(std::uint8_t step) const;
     /// Texts of a step, with the arguments of its sequence.
