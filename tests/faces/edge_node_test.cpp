@@ -121,6 +121,30 @@ TEST(EdgeNode, AStopIsTakenWhateverElseItsMessageHas) {
     }
 }
 
+// A digit each: 9 values up to 9 s, then one every 10 s.
+TEST(EdgeNode, TellsForHowLongAStopIsNotConfirmedEverMoreSeldom) {
+    Host host;
+    std::optional<std::uint64_t> alias;
+    for (const auto& [topic, payload] : host.sent) {
+        for (const Metric& one : payload.metrics) {
+            if (one.name == "stop_unconfirmed_time") alias = one.alias;
+        }
+    }
+    ASSERT_TRUE(alias);
+    host.sent.clear();
+    host.port.board.stop_takes = 35s;
+    host.command(host.metric("Command/stop", true));
+    host.run(38s);
+    std::vector<std::int64_t> told;
+    for (const auto& [topic, payload] : host.sent) {
+        for (const Metric& one : payload.metrics) {
+            if (one.alias == alias) told.push_back(std::get<std::int64_t>(one.value));
+        }
+    }
+    EXPECT_EQ(told, (std::vector<std::int64_t>{1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000, 9000, 10'000,
+                                               20'000, 30'000, 0}));
+}
+
 TEST(EdgeNode, OfTwoCommandsThatAreNoStopNoneIsTaken) {
     Options options = Host::all();
     options.commands.push_back(gw::Command::step);

@@ -167,6 +167,34 @@ TEST_F(SilentAxis, APlcIsAnswered) {
     EXPECT_FALSE(runs());
 }
 
+// 4: read input registers, 50 and 51 (modbus/README.md, The map).
+TEST_F(SilentAxis, APlcReadsForHowLongAStopIsNotConfirmed) {
+    std::vector<std::unique_ptr<modbus::Unit>> units;
+    units.push_back(std::make_unique<modbus::Unit>(model, modbus::Settings{}));
+    modbus::Session session(units, "PLC", bell);
+    const auto milliseconds = [&] {
+        constexpr std::array<std::uint8_t, 5> kRead{4, 0, 50, 0, 2};
+        EXPECT_TRUE(session.serve(1, kRead, {.now = now(), .arrived = now()}));  // asks for a new image
+        run(100ms);
+        const auto answer = session.serve(1, kRead, {.now = now(), .arrived = now()});
+        EXPECT_TRUE(answer && answer->bytes().size() == 6);
+        std::uint32_t value = 0;
+        for (std::size_t i = 2; answer && i < answer->bytes().size(); ++i)
+            value = value << 8 | answer->bytes()[i];
+        return value;
+    };
+    start();
+    EXPECT_EQ(milliseconds(), 0U);
+    port.board.stop_takes = 71s;
+    ASSERT_TRUE(panel->submit(order(gw::Command::stop)));
+    run(70s);
+    const std::uint32_t time = milliseconds();
+    EXPECT_GE(time, 70'000U);
+    EXPECT_LE(time, 70'100U);
+    run(1s);
+    EXPECT_EQ(milliseconds(), 0U);
+}
+
 struct Scada {
     Scada(AxisModel& model, Bell& bell) : node(options(), {&model}, bell) {
         node.begin_session();

@@ -57,6 +57,7 @@ constexpr ValueRow kRows[] = {
     {I, 38, 2, "table_crc"},
     {I, 46, 2, "worst_poll_gap"},
     {I, 48, 2, "late_polls"},
+    {I, 50, 2, "stop_unconfirmed_time"},
     {I, 100, 2, "position_counts", 1, true},
     {I, 102, 2, "position", 1000, true},
     {I, 104, 2, "velocity", 1000, true},

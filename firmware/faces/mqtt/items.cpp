@@ -17,8 +17,15 @@ using faces::Quality;
 namespace {
 
 /// They change with every image and add nothing to the timestamps.
-constexpr std::string_view kRestless[]{"heartbeat",   "uptime",   "scans",         "scan_time",
-                                       "contact_age", "accesses", "user_messages", "stop_unconfirmed_time"};
+constexpr std::string_view kRestless[]{"heartbeat",   "uptime",   "scans",        "scan_time",
+                                       "contact_age", "accesses", "user_messages"};
+
+/// Whole seconds with one digit that is not 0, so that it changes ever more seldom: 9 s, 10 s, 20 s.
+double with_one_digit(double milliseconds) {
+    double step = 1'000;
+    while (milliseconds >= 10 * step) step *= 10;
+    return std::floor(milliseconds / step) * step;
+}
 
 DataType type_of(const faces::Point& point) {
     switch (point.type) {
@@ -69,6 +76,13 @@ std::vector<Item> point_items(const faces::Scaling& scaling) {
         item.take = [&point, scaling](const AxisImage& image, base::Instant now) {
             return point.take(image, now, scaling);
         };
+        if (point.name == "stop_unconfirmed_time") {
+            item.take = [&point, scaling](const AxisImage& image, base::Instant now) {
+                PointValue value = point.take(image, now, scaling);
+                value.value = with_one_digit(value.value);
+                return value;
+            };
+        }
         items.push_back(std::move(item));
     }
     return items;
