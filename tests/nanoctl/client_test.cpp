@@ -215,6 +215,22 @@ TEST(Client, AHoldBehindAnUnconfirmedStopSaysThatTheMachineMayStillBeRunning) {
     EXPECT_THROW(stop_machine(bench.gateway, Command::hold), NotConfirmed);
 }
 
+// As a step, a scan or a breakpoint leaves it.
+TEST(Client, AHeldSequenceWhoseMotorHasNotConfirmedItsStopIsInDoubt) {
+    for (const motor::Link link : {motor::Link::up, motor::Link::down}) {
+        Bench bench;
+        bench.run_a_table();
+        bench.unit.board.link_state = link;
+        bench.unit.board.stop_is_confirmed = false;
+        bench.gateway.command(Command::hold);
+        while (bench.status().run_state != gw::RunState::held)
+            bench.master.pause(std::chrono::milliseconds{20});
+        EXPECT_NE(doubt_of_stop(bench.gateway).find(kMayStillRun), std::string::npos);
+        bench.unit.board.stop_is_confirmed = true;
+        EXPECT_EQ(doubt_of_stop(bench.gateway), "");
+    }
+}
+
 TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
     Bench bench;
     bench.run_a_table();
