@@ -120,6 +120,12 @@ inline std::vector<Long> long_programs(int count) {
                 "OWN ERROR; " +
                 many([](int i) { return "IF IN0 THEN CALL W" + text_of(i) + "(); NEXT := S; END_IF\n"; }) +
                 "END_STEP")},
+        {"calls that differ",
+         at_top("SEQUENCE Q(CONST W) STEP A: OWN ERROR; IF IN0 THEN TIMER := W; RETURN; END_IF END_STEP "
+                "END_SEQUENCE STEP T: OWN ERROR; IF IN1 THEN NEXT := S; " +
+                many([](int i) { return "ELSIF IN2 THEN CALL Q(" + text_of(i + 1) + " ms); NEXT := S;\n"; }) +
+                "END_IF END_STEP"),
+         "E083"},
         {"unknown constants",
          "PROGRAM P MOTOR MAC140;\n" + many([](int i) { return "CONST C" + text_of(i) + " := 1;\n"; }) +
              "STEP S: OWN ERROR; IF IN0 THEN " +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <unordered_map>
 
 #include "compiler/checker.h"
 #include "compiler/claims.h"
@@ -137,12 +139,14 @@ void collect_allowances(const ast::Program& program, const Plan& plan, Compilati
 
 /// Names the origin of the steps of a SEQUENCE; steps of a later call are copies of the first one's.
 void name_origins(const ast::Program& program, const Scope& scope, Compilation& result) {
+    std::unordered_map<std::string, std::uint8_t> numbers;  // the first of a name, in upper case
+    for (std::size_t i = 0; i < scope.steps().size(); ++i) {
+        if (scope.number_of(i) <= kLastNamed)
+            numbers.try_emplace(upper(scope.steps()[i]->name.text), scope.number_of(i));
+    }
     const auto number_of = [&](std::string_view name) -> std::optional<std::uint8_t> {
-        for (std::size_t i = 0; i < scope.steps().size(); ++i) {
-            if (same_name(scope.steps()[i]->name.text, name) && scope.number_of(i) <= kLastNamed)
-                return scope.number_of(i);
-        }
-        return std::nullopt;
+        const auto found = numbers.find(upper(name));
+        return found == numbers.end() ? std::nullopt : std::optional(found->second);
     };
     for (const ast::Step& step : program.steps) {
         const auto number = step.origin ? number_of(step.name.text) : std::nullopt;
