@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "analysis/story.h"
 #include "findings.h"
@@ -15,7 +16,7 @@ bool shows_error(const Place& place) {
     return place.motor == Place::Motor::error || place.motor == Place::Motor::lost;
 }
 
-class Errors {
+class Errors : public std::enable_shared_from_this<Errors> {
   public:
     explicit Errors(const Subject& subject)
         : explorer_(subject.explorer),
@@ -92,21 +93,31 @@ class Errors {
         }
     }
 
-    void tell_stuck(Node node, const Place& place, std::vector<CourseScan> course) {
-        bool leaves = false;
+    bool is_stuck(Node node, std::uint8_t step) const {
+        const Place& place = explorer_.place(node);
+        return place.step == step && shows_error(place) && !resets_[node];
+    }
+
+    /// From the node, ERROR lasting, some course comes to another step.
+    bool leaves_step(Node node) const {
         std::vector<Node> open = {node};
         std::vector<bool> seen(explorer_.size());
         seen[node] = true;
         while (!open.empty()) {
             const Node at = open.back();
             open.pop_back();
-            leaves = leaves || explorer_.place(at).step != place.step;
+            if (explorer_.place(at).step != explorer_.place(node).step) return true;
             for (const Explorer::Edge& edge : explorer_.edges_from(at)) {
                 if (seen[edge.to] || !shows_error(explorer_.place(edge.to))) continue;
                 seen[edge.to] = true;
                 open.push_back(edge.to);
             }
         }
+        return false;
+    }
+
+    void tell_stuck(Node node, const Place& place, Scans course) {
+        const bool leaves = leaves_step(node);
         const std::string step = step_name(names_, place.step);
         const char* when = place.motor == Place::Motor::lost ? "after a lost link (ERROR without INPOS)"
                                                              : "while ERROR lasts";
@@ -115,20 +126,28 @@ class Errors {
              leaves
                  ? fmt::format("{} no way from step {} sends RESET_ERROR: it always comes back", when, step)
                  : fmt::format("{} nothing leaves step {}, and it sends no RESET_ERROR", when, step),
-             std::move(course)});
+             std::move(course),
+             [this, keep = shared_from_this(), motor = place.motor, step_number = place.step,
+              leaves](const OtherCourses& courses) {
+                 return courses.to([&](Node other) {
+                     return is_stuck(other, step_number) && explorer_.place(other).motor == motor &&
+                            leaves_step(other) == leaves;
+                 });
+             }});
     }
 
     /// Scans with ERROR in which no term writes outputs.
     void find_outputs_left_on() {
+        const auto leaves_outputs = [&explorer = explorer_](const Explorer::Edge& edge) {
+            const Group& group = explorer.group_of(edge);
+            return group.error && !group.outcome.outputs;
+        };
         std::array<bool, 63> told{};
         for (Node node = 0; node < explorer_.size(); ++node) {
             const Place& place = explorer_.place(node);
             if (place.outputs == 0 || is_fault_step_[place.step] || told[place.step]) continue;
             const auto edges = explorer_.edges_from(node);
-            const auto left = std::find_if(edges.begin(), edges.end(), [&](const Explorer::Edge& edge) {
-                const Group& group = explorer_.group_of(edge);
-                return group.error && !group.outcome.outputs;
-            });
+            const auto left = std::find_if(edges.begin(), edges.end(), leaves_outputs);
             if (left == edges.end()) continue;
             auto way = courses_.with(*left);
             if (!way) continue;
@@ -136,7 +155,15 @@ class Errors {
             findings_.push_back({"V006", place.step,
                                  fmt::format("in step {} ERROR leaves {} on", step_name(names_, place.step),
                                              outputs_text(place.outputs, names_)),
-                                 std::move(*way)});
+                                 std::move(*way),
+                                 [=, &explorer = explorer_, step = place.step,
+                                  outputs = place.outputs](const OtherCourses& courses) {
+                                     return courses.with([&](const Explorer::Edge& edge) {
+                                         const Place& from = explorer.place(edge.from);
+                                         return from.step == step && from.outputs == outputs &&
+                                                leaves_outputs(edge);
+                                     });
+                                 }});
         }
     }
 
@@ -152,7 +179,7 @@ class Errors {
 }  // namespace
 
 std::vector<Finding> check_errors(const Subject& subject) {
-    return Errors(subject).find();
+    return std::make_shared<Errors>(subject)->find();
 }
 
 }  // namespace nplc::verify

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "analysis/story.h"
@@ -39,13 +40,20 @@ std::vector<const Group*> used_groups(const Explorer& explorer) {
     return groups;
 }
 
+std::vector<bool> groups_that_begin_moves(const Machine& machine) {
+    std::vector<bool> result;
+    for (const Group& group : machine.all_groups()) result.push_back(begins_move(group.outcome.orders));
+    return result;
+}
+
 /// V009: a move after which no step looks at INPOS or waits for a time.
 std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
     const auto moves = of_groups(explorer.machine(), [](const MotorOrder& order) {
         return begins_motion(order) || ends_motion(order);
     });
-    std::vector<bool> sees(explorer.size());
+    const auto all_that_see = std::make_shared<std::vector<bool>>(explorer.size());
+    std::vector<bool>& sees = *all_that_see;
     std::vector<Node> open;
     for (auto node = static_cast<Node>(explorer.size()); node-- > 0;) {
         const std::uint8_t step = explorer.place(node).step;
@@ -65,9 +73,7 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
     }
     std::vector<Finding> findings;
     if (open.empty()) return findings;
-    std::vector<bool> goes(explorer.machine().all_groups().size());
-    for (const Group& group : explorer.machine().all_groups())
-        goes[group.number] = begins_move(group.outcome.orders);
+    const std::vector<bool> goes = groups_that_begin_moves(explorer.machine());
     std::array<bool, 63> told{};
     for (const Explorer::Edge& edge : explorer.edges()) {
         if (sees[edge.to] || !goes[edge.group]) continue;
@@ -81,7 +87,12 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
              fmt::format("a move is ordered on the way into step {}, and no step after it looks "
                          "at INPOS or waits for a time",
                          step_name(subject.names, step)),
-             std::move(*course)});
+             std::move(*course), [=, &explorer](const OtherCourses& courses) {
+                 return courses.with([&](const Explorer::Edge& other) {
+                     return explorer.place(other.to).step == step && !(*all_that_see)[other.to] &&
+                            goes[other.group];
+                 });
+             }});
     }
     return findings;
 }
@@ -112,21 +123,26 @@ bool waits_for_in_pos(const Machine& machine, std::uint8_t step) {
 /// V015: a move into a step that waits for its end and for no time.
 std::vector<Finding> find_no_limit(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
-    const auto no_limit = steps_without_limit(explorer.machine(), sensitivity);
+    const std::vector<bool> goes = groups_that_begin_moves(explorer.machine());
+    std::array<bool, 63> waits = steps_without_limit(explorer.machine(), sensitivity);
+    for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step)
+        waits[step] = waits[step] && waits_for_in_pos(explorer.machine(), step);
     std::array<bool, 63> told{};
     std::vector<Finding> findings;
     for (const Explorer::Edge& edge : explorer.edges()) {
         const std::uint8_t step = explorer.place(edge.to).step;
-        if (!no_limit[step] || told[step] || !begins_move(explorer.group_of(edge).outcome.orders) ||
-            !waits_for_in_pos(explorer.machine(), step))
-            continue;
+        if (!waits[step] || told[step] || !goes[edge.group]) continue;
         auto course = subject.courses.with(edge);
         if (!course) continue;
         told[step] = true;
         findings.push_back({"V015", step,
                             fmt::format("step {} waits for the end of a move without a time limit",
                                         step_name(subject.names, step)),
-                            std::move(*course)});
+                            std::move(*course), [=, &explorer](const OtherCourses& courses) {
+                                return courses.with([&](const Explorer::Edge& other) {
+                                    return explorer.place(other.to).step == step && goes[other.group];
+                                });
+                            }});
     }
     return findings;
 }
@@ -177,45 +193,93 @@ MotorChange change_by(const Group& group, std::uint16_t before, const ZeroRegist
 }
 
 /// V010 and V011, by following the commands' effect on the motor.
-std::vector<Finding> find_motor_stands(const Subject& subject, const Sensitivity& sensitivity) {
-    const Explorer& explorer = subject.explorer;
-    const auto no_limit = steps_without_limit(explorer.machine(), sensitivity);
-    const ZeroRegisters zeros = zero_registers(subject);
-    std::array<bool, 63> told_wait{};
-    std::array<bool, 63> told_move{};
-    std::vector<Finding> findings;
-    std::vector<std::array<MotorChange, MotorState::kPacked>> changes(explorer.machine().all_groups().size());
-    Walk walk(explorer, subject.courses.excluded());
-    walk.begin_at_power_up(0);
-    walk.all([&](const Walk::Scan& scan) {
-        const std::uint8_t step = explorer.place(scan.edge.from).step;
-        const Group& group = explorer.group_of(scan.edge);
-        if (!group.error && no_limit[step] && !told_wait[step]) {
-            const MotorState motor = MotorState::unpacked(scan.memory);
-            if (motor.in_pos_never_comes()) {
+class MotorStands : public std::enable_shared_from_this<MotorStands> {
+  public:
+    MotorStands(const Subject& subject, const Sensitivity& sensitivity)
+        : explorer_(subject.explorer),
+          names_(subject.names),
+          no_limit_(steps_without_limit(explorer_.machine(), sensitivity)),
+          zeros_(zero_registers(subject)),
+          changes_(explorer_.machine().all_groups().size()) {}
+
+    std::vector<Finding> find() {
+        std::array<bool, 63> told_wait{};
+        std::array<bool, 63> told_move{};
+        std::vector<Finding> findings;
+        Walk walk(explorer_);
+        walk.begin_at_power_up(0);
+        walk.all([&](const Walk::Scan& scan) {
+            const std::uint8_t step = explorer_.place(scan.edge.from).step;
+            if (const char* why = told_wait[step] ? nullptr : why_waits(scan)) {
                 told_wait[step] = true;
                 findings.push_back(
                     {"V010", step,
                      fmt::format("step {} waits for INPOS without time limit, and it may never "
                                  "come: {}",
-                                 step_name(subject.names, step), why_never(motor)),
-                     scan.course(scan.images())});
+                                 step_name(names_, step), why),
+                     scan.course(scan.images()), others([this, step, why](const Walk::Scan& other) {
+                         return explorer_.place(other.edge.from).step == step && why_waits(other) == why;
+                     })});
             }
-        }
-        MotorChange& change = changes[group.number][scan.memory];
-        if (!change.is_known) change = change_by(group, scan.memory, zeros);
-        const std::uint8_t next = explorer.place(scan.edge.to).step;
-        if (change.stands != nullptr && !told_move[next]) {
-            told_move[next] = true;
-            findings.push_back({"V011", next,
-                                fmt::format("on the way into step {} a move is ordered while {}: the motor "
-                                            "stands",
-                                            step_name(subject.names, next), change.stands),
-                                scan.course(scan.images())});
-        }
-        scan.go_on(change.then);
-    });
-    return findings;
+            const MotorChange& change = change_of(scan);
+            const std::uint8_t next = explorer_.place(scan.edge.to).step;
+            if (change.stands != nullptr && !told_move[next]) {
+                told_move[next] = true;
+                findings.push_back(
+                    {"V011", next,
+                     fmt::format("on the way into step {} a move is ordered while {}: the motor stands",
+                                 step_name(names_, next), change.stands),
+                     scan.course(scan.images()),
+                     others([this, next, stands = change.stands](const Walk::Scan& other) {
+                         return explorer_.place(other.edge.to).step == next &&
+                                change_of(other).stands == stands;
+                     })});
+            }
+            scan.go_on(change.then);
+        });
+        return findings;
+    }
+
+  private:
+    template <class Shows>
+    Other others(const Shows& shows) {
+        return [keep = shared_from_this(), shows](const OtherCourses& courses) {
+            std::optional<Scans> course;
+            Walk walk = courses.walk();
+            walk.begin_at_power_up(0);
+            walk.all([&](const Walk::Scan& scan) {
+                if (!shows(scan)) return scan.go_on(keep->change_of(scan).then);
+                course = scan.course(scan.images());
+                scan.stop();
+            });
+            return course;
+        };
+    }
+    const char* why_waits(const Walk::Scan& scan) const {
+        if (explorer_.group_of(scan.edge).error || !no_limit_[explorer_.place(scan.edge.from).step])
+            return nullptr;
+        const MotorState motor = MotorState::unpacked(scan.memory);
+        return motor.in_pos_never_comes() ? why_never(motor) : nullptr;
+    }
+    const MotorChange& change_of(const Walk::Scan& scan) {
+        const Group& group = explorer_.group_of(scan.edge);
+        MotorChange& change = changes_[group.number][scan.memory];
+        if (!change.is_known) change = change_by(group, scan.memory, zeros_);
+        return change;
+    }
+
+    const Explorer& explorer_;
+    const Names& names_;
+    std::array<bool, 63> no_limit_;
+    ZeroRegisters zeros_;
+    std::vector<std::array<MotorChange, MotorState::kPacked>> changes_;
+};
+
+/// Courses with a scan of the group.
+auto others_with(const Group& group) {
+    return [number = group.number](const OtherCourses& courses) {
+        return courses.with([&](const Explorer::Edge& edge) { return edge.group == number; });
+    };
 }
 
 /// A command that a later one of the same scan cancels.
@@ -257,7 +321,7 @@ std::vector<Finding> find_undone(const Subject& subject) {
              fmt::format("in a scan of step {} {} is sent after {} and undoes it",
                          step_name(subject.names, step), order_text(pair->second, subject.names),
                          order_text(pair->first, subject.names)),
-             std::move(*course)});
+             std::move(*course), others_with(*group)});
     }
     return findings;
 }
@@ -297,7 +361,7 @@ std::vector<Finding> find_home_stands(const Subject& subject) {
              fmt::format("on the way into step {} a homing is ordered while V_HOME is 0, or may "
                          "be, by the value it is set to: the motor stands",
                          step_name(subject.names, step)),
-             std::move(*course)});
+             std::move(*course), others_with(*group)});
     }
     return findings;
 }
@@ -321,7 +385,7 @@ std::optional<Finding> find_home_not_written(const Subject& subject, const std::
                                    "in the motor",
                                    step_name(subject.names, step), fmt::join(missing, " and "),
                                    both ? "they hold" : "it holds", both ? "s" : ""),
-                       std::move(*course)};
+                       std::move(*course), others_with(*group)};
     }
     return std::nullopt;
 }
@@ -355,7 +419,7 @@ std::vector<Finding> find_never_written(const Subject& subject) {
              fmt::format("step {} selects register {}, and nothing ever writes it: it holds "
                          "the value stored in the motor",
                          step_name(subject.names, step), selected_name(*selection.order, reg, subject.names)),
-             std::move(*course)});
+             std::move(*course), others_with(*selection.group)});
     }
     if (auto finding = find_home_not_written(subject, written)) findings.push_back(std::move(*finding));
     return findings;
@@ -367,8 +431,8 @@ std::vector<Finding> check_motor(const Subject& subject) {
     const Sensitivity sensitivity(subject.explorer.machine());
     std::vector<Finding> findings = find_unseen_ends(subject, sensitivity);
     for (auto& more :
-         {find_motor_stands(subject, sensitivity), find_home_stands(subject), find_undone(subject),
-          find_never_written(subject), find_no_limit(subject, sensitivity)})
+         {std::make_shared<MotorStands>(subject, sensitivity)->find(), find_home_stands(subject),
+          find_undone(subject), find_never_written(subject), find_no_limit(subject, sensitivity)})
         findings.insert(findings.end(), more.begin(), more.end());
     // Steps whose INPOS may never come have been reported already
     std::array<bool, 63> may_wait_for_ever{};

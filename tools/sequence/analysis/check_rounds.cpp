@@ -217,13 +217,28 @@ class Rounds {
             way.push_back(explorer_.scan_of(**edge, only));
         }
         if (std::has_single_bit(steps) || told_.contains(steps)) return;
-        auto course = courses_.to(first, std::move(way));
+        auto course = courses_.to(first, way);
         if (!course) return;
         told_.insert(steps);
         findings_.push_back({"V013", explorer_.place(first).step,
                              fmt::format("steps {} follow each other without end while no input changes",
                                          names_of(steps, names_)),
-                             std::move(*course)});
+                             std::move(*course), others(first, std::move(way))});
+    }
+
+    /// Other courses to the same round, then other rounds through its first step.
+    Other others(Node first, Scans way) const {
+        return [&explorer = explorer_, &names = names_, first,
+                round = std::move(way)](const OtherCourses& courses) -> std::optional<Scans> {
+            if (auto course = courses.to([&](Node node) { return node == first; }, round)) return course;
+            if (courses.excluded().is_worn_out()) return std::nullopt;
+            courses.excluded().count_work(explorer.edges().size());
+            Courses not_excluded(explorer, &courses.excluded());
+            for (Finding& finding : find_rounds({explorer, names, not_excluded, {}})) {
+                if (finding.step == explorer.place(first).step) return std::move(finding.way);
+            }
+            return std::nullopt;
+        };
     }
 
     enum class State : std::uint8_t { fresh, open, done };

@@ -37,12 +37,18 @@ struct StepGraph {
     }
 };
 
-std::optional<std::vector<CourseScan>> course_into(const Subject& subject, std::uint8_t step) {
+std::optional<Scans> course_into(const Subject& subject, std::uint8_t step) {
     for (Explorer::Node node = 0; node < subject.explorer.size(); ++node) {
         if (subject.explorer.place(node).step != step) continue;
         if (auto course = subject.courses.to(node)) return course;
     }
     return std::nullopt;
+}
+
+auto others_into(const Explorer& explorer, std::uint8_t step) {
+    return [&explorer, step](const OtherCourses& courses) {
+        return courses.to([&](Explorer::Node node) { return explorer.place(node).step == step; });
+    };
 }
 
 /// A copy of a step is that step.
@@ -116,7 +122,7 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
             if (auto course = course_into(subject, step))
                 findings.push_back({"V002", step,
                                     fmt::format("nothing leaves step {}", step_name(subject.names, step)),
-                                    std::move(*course)});
+                                    std::move(*course), others_into(subject.explorer, step)});
             continue;
         }
         if ((group & graph.first) != 0 || (told & bit_of(step)) != 0) continue;
@@ -129,11 +135,31 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
         told_groups.push_back(named);
         auto course = course_into(subject, step);
         if (!course) continue;
-        findings.push_back({"V003", step, no_way_back(subject, group, graph.first), std::move(*course)});
+        findings.push_back({"V003", step, no_way_back(subject, group, graph.first), std::move(*course),
+                            others_into(subject.explorer, step)});
     }
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> distances_to_step(const Explorer& explorer, const EdgesBack& back,
+                                             std::uint8_t step) {
+    std::vector<std::uint32_t> distances(explorer.size(), kFar);
+    std::vector<Explorer::Node> open;
+    for (Explorer::Node node = 0; node < explorer.size(); ++node) {
+        if (explorer.place(node).step != step) continue;
+        distances[node] = 0;
+        open.push_back(node);
+    }
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        for (const Explorer::Node from : back.to(open[i])) {
+            if (distances[from] != kFar) continue;
+            distances[from] = distances[open[i]] + 1;
+            open.push_back(from);
+        }
+    }
+    return distances;
+}
 
 std::optional<std::vector<CourseScan>> Courses::to(Explorer::Node node, std::vector<CourseScan> then) {
     std::optional<std::vector<CourseScan>> course;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,22 +87,55 @@ std::string shown_at_once(const Use& use, const Names& names) {
                          : fmt::format("{} from the beginning", fmt::join(parts, ", "));
 }
 
-/// V007: a zero that a step waits for, or shows, although it was never set or has already been used by
-/// another step.
-std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
-    const Explorer& explorer = subject.explorer;
-    const std::vector<Use> uses = uses_of(subject, sensitivity, timer);
+/// Not set: as at power-up, and after a scan in which its zero led to another step.
+void begin_stale(const Explorer& explorer, const std::vector<Use>& uses, Walk& walk) {
     std::vector<bool> makes_stale;
     for (const Use& use : uses) makes_stale.push_back(use.leaves && !use.sets && use.decided.any());
-    // Not set: as at power-up, and after a scan in which its zero led to another step
-    Walk walk(explorer, subject.courses.excluded());
     walk.begin_at_power_up(0);
     for (const Explorer::Edge& edge : explorer.edges()) {
         if (makes_stale[edge.group])
             walk.begin_with(edge, uses[edge.group].decided & explorer.images_of(edge), 0);
     }
-    // A step that waits is told of before one that shows the zero
-    enum Kind : std::uint8_t { kLeads, kActs, kShows, kKinds };
+}
+
+/// A step that waits is told of before one that shows the zero.
+enum Kind : std::uint8_t { kLeads, kActs, kShows, kKinds };
+
+ImageSet images_of_kind(const Use& use, Kind kind) {
+    return kind == kLeads  ? use.decided & use.leads
+           : kind == kActs ? use.decided & use.acts
+                           : use.decided & ~use.leads & ~use.acts;
+}
+
+Other other_stale(const Explorer& explorer, const std::shared_ptr<const std::vector<Use>>& uses,
+                  std::uint8_t step, Kind kind) {
+    return [=, &explorer](const OtherCourses& courses) {
+        std::optional<Scans> course;
+        Walk walk = courses.walk();
+        begin_stale(explorer, *uses, walk);
+        walk.all([&](const Walk::Scan& scan) {
+            const Use& use = (*uses)[scan.edge.group];
+            const ImageSet images = explorer.place(scan.edge.from).step == step
+                                        ? images_of_kind(use, kind) & scan.images()
+                                        : ImageSet{};
+            if (images.any()) {
+                course = scan.course(images);
+                return scan.stop();
+            }
+            if (!use.sets) scan.go_on(0);
+        });
+        return course;
+    };
+}
+
+/// V007: a zero that a step waits for, or shows, although it was never set or has already been used by
+/// another step.
+std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensitivity, bool timer) {
+    const Explorer& explorer = subject.explorer;
+    const auto all_uses = std::make_shared<const std::vector<Use>>(uses_of(subject, sensitivity, timer));
+    const std::vector<Use>& uses = *all_uses;
+    Walk walk(explorer);
+    begin_stale(explorer, uses, walk);
     std::array<std::array<std::optional<Finding>, 63>, kKinds> found;
     std::vector<std::uint8_t> steps;  // in the order of discovery
     const auto tell = [&](Kind kind, const Walk::Scan& scan, const ImageSet& images, const Use& use) {
@@ -120,16 +154,16 @@ std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensi
                 ? fmt::format("step {} does something with {}, and {}: it does so at once", name, zero, unset)
                 : fmt::format("step {} shows {}, and {}: {}", name, zero, unset,
                               shown_at_once(use, subject.names));
-        found[kind][step] = {"V007", step, text, scan.course(images)};
+        found[kind][step] = {"V007", step, text, scan.course(images),
+                             other_stale(explorer, all_uses, step, kind)};
     };
     walk.all([&](const Walk::Scan& scan) {
         const Use& use = uses[scan.edge.group];
         if (!use.sets) scan.go_on(0);
         if (use.decided.none()) return;
-        const ImageSet images = use.decided & scan.images();
-        tell(kLeads, scan, images & use.leads, use);
-        tell(kActs, scan, images & use.acts, use);
-        tell(kShows, scan, images & ~use.leads & ~use.acts, use);
+        const ImageSet images = scan.images();
+        for (const Kind kind : {kLeads, kActs, kShows})
+            tell(kind, scan, images & images_of_kind(use, kind), use);
     });
     std::vector<Finding> findings;
     for (const std::uint8_t step : steps) {
@@ -157,10 +191,10 @@ std::uint64_t led_to(const Machine& machine, const Sensitivity& sensitivity, std
 }
 
 /// V008: a timer that one step was to wait for and that another waits for while it still runs.
-class OtherPurpose {
+class OtherPurpose : public std::enable_shared_from_this<OtherPurpose> {
   public:
     OtherPurpose(const Subject& subject, const Sensitivity& sensitivity)
-        : explorer_(subject.explorer), names_(subject.names), excluded_(subject.courses.excluded()) {
+        : explorer_(subject.explorer), names_(subject.names) {
         for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step)
             leads_to_[step] = without_copies(led_to(explorer_.machine(), sensitivity, step));
     }
@@ -169,15 +203,39 @@ class OtherPurpose {
         for (const Group& group : explorer_.machine().all_groups())
             presets_.push_back(group.outcome.timer != 0);
         users_.resize(explorer_.size());
-        Walk walk(explorer_, excluded_);
-        for (const Explorer::Edge& edge : explorer_.edges()) {
-            if (presets_[edge.group] && explorer_.place(edge.to).runs) walk.begin_with(edge, kUnused);
-        }
-        walk.all([&](const Walk::Scan& scan) { follow(scan); });
+        Walk walk(explorer_);
+        begin(walk);
+        walk.all([&](const Walk::Scan& scan) {
+            const std::uint8_t step = explorer_.place(scan.edge.from).step;
+            const Walk::Memory user = user_in(scan);
+            if (has_other_purpose(user, step) && !told_[step]) tell(scan, user, step);
+            if (runs_on(scan) && is_new(scan.edge.to, user)) scan.go_on(user);
+        });
         return std::move(findings_);
     }
 
   private:
+    void begin(Walk& walk) const {
+        for (const Explorer::Edge& edge : explorer_.edges()) {
+            if (presets_[edge.group] && explorer_.place(edge.to).runs) walk.begin_with(edge, kUnused);
+        }
+    }
+
+    std::optional<Scans> other(const OtherCourses& courses, Walk::Memory first, std::uint8_t step) const {
+        std::optional<Scans> course;
+        Walk walk = courses.walk();
+        begin(walk);
+        walk.all([&](const Walk::Scan& scan) {
+            const Walk::Memory user = user_in(scan);
+            if (user == first && explorer_.place(scan.edge.from).step == step) {
+                course = scan.course(scan.images());
+                return scan.stop();
+            }
+            if (runs_on(scan)) scan.go_on(user);
+        });
+        return course;
+    }
+
     /// A copy of a step counts as that step.
     std::uint64_t without_copies(std::uint64_t steps) const {
         std::uint64_t result = 0;
@@ -188,32 +246,37 @@ class OtherPurpose {
         return result;
     }
 
-    void follow(const Walk::Scan& scan) {
+    /// The first step that was to wait for the timer.
+    Walk::Memory user_in(const Walk::Scan& scan) const {
         const std::uint8_t step = explorer_.place(scan.edge.from).step;
-        Walk::Memory user = scan.memory;
-        if (leads_to_[step] != 0) {
-            if (user == kUnused) user = static_cast<Walk::Memory>(kFirstUser + step);
-            const auto first = static_cast<std::uint8_t>(user - kFirstUser);
-            if (leads_to_[first] != leads_to_[step] && !told_[step]) tell(scan, first, step);
-        }
-        const bool runs_on = !presets_[scan.edge.group] && explorer_.place(scan.edge.to).runs;
-        if (runs_on && is_new(scan.edge.to, user)) scan.go_on(user);
+        return scan.memory == kUnused && leads_to_[step] != 0 ? static_cast<Walk::Memory>(kFirstUser + step)
+                                                              : scan.memory;
+    }
+    bool has_other_purpose(Walk::Memory user, std::uint8_t step) const {
+        return leads_to_[step] != 0 && leads_to_[user - kFirstUser] != leads_to_[step];
+    }
+    bool runs_on(const Walk::Scan& scan) const {
+        return !presets_[scan.edge.group] && explorer_.place(scan.edge.to).runs;
     }
 
-    void tell(const Walk::Scan& scan, std::uint8_t first, std::uint8_t step) {
+    void tell(const Walk::Scan& scan, Walk::Memory user, std::uint8_t step) {
+        const auto first = static_cast<std::uint8_t>(user - kFirstUser);
         told_[step] = true;
         findings_.push_back(
             {"V008", step,
              fmt::format("the timer that step {} was to wait for still runs in step {}, which "
                          "goes elsewhere when it ends",
                          step_name(names_, first), step_name(names_, step)),
-             scan.course(scan.images())});
+             scan.course(scan.images()),
+             [keep = shared_from_this(), user, step](const OtherCourses& courses) {
+                 return keep->other(courses, user, step);
+             }});
     }
 
     /// At each node the first two users with different purposes are enough: for any step that follows, one of
     /// them had another purpose.
     bool is_new(Explorer::Node node, Walk::Memory user) {
-        if (user == kUnused || excluded_ != nullptr) return true;
+        if (user == kUnused) return true;
         auto& [one, two] = users_[node];
         const auto purpose = [&](Walk::Memory of) { return leads_to_[of - kFirstUser]; };
         if (one == kUnused) {
@@ -230,7 +293,6 @@ class OtherPurpose {
 
     const Explorer& explorer_;
     const Names& names_;
-    Excluded* excluded_;
     std::array<std::uint64_t, 63> leads_to_{};
     std::vector<bool> presets_;                       ///< by group
     std::vector<std::array<Walk::Memory, 2>> users_;  ///< by node
@@ -244,7 +306,8 @@ std::vector<Finding> check_zeros(const Subject& subject) {
     const Sensitivity sensitivity(subject.explorer.machine());
     std::vector<Finding> findings = find_stale(subject, sensitivity, true);
     for (const Finding& finding : find_stale(subject, sensitivity, false)) findings.push_back(finding);
-    for (const Finding& finding : OtherPurpose(subject, sensitivity).find()) findings.push_back(finding);
+    for (const Finding& finding : std::make_shared<OtherPurpose>(subject, sensitivity)->find())
+        findings.push_back(finding);
     return findings;
 }
 

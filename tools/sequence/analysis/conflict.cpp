@@ -44,6 +44,7 @@ void Excluded::add(std::span<const CourseScan> scans, const Conflict& conflict) 
         pattern.elements.push_back(
             {symbol.times, conflict.exact ? symbol.exact : kWhatever, conflict.overdue && symbol.begins});
     }
+    if (std::find(patterns_.begin(), patterns_.end(), pattern) != patterns_.end()) return;
     patterns_.push_back(std::move(pattern));
     forget();
 }

@@ -41,7 +41,9 @@ class Excluded {
     /// A course that has its deadline missed after this scan is excluded.
     bool ends_out(State before, const Explorer::Edge& edge, bool begins);
 
-    /// Scans examined; limits the search.
+    /// What is excluded stays so; the work begins again.
+    void begin_question() { work_ = 0; }
+    /// Scans examined; limits the search for the courses of a question.
     void count_work(std::uint64_t scans = 1) { work_ += scans; }
     bool is_worn_out() const { return work_ > kMostWork; }
 
@@ -58,10 +60,12 @@ class Excluded {
         std::uint32_t times = kWhatever;
         std::uint32_t exact = kWhatever;
         bool begins = false;  ///< to be looked at if it is set
+        bool operator==(const Element&) const = default;
     };
     struct Pattern {
         std::vector<Element> elements;
         bool at_end = false;
+        bool operator==(const Pattern&) const = default;
     };
     using Items = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  ///< pattern, matched elements
     using TimesKey = std::tuple<std::int32_t, std::int32_t, std::uint32_t, std::uint32_t, unsigned>;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,12 +14,70 @@
 /// The built-in checks, grouped by subject.
 namespace nplc::verify {
 
+using Scans = std::vector<CourseScan>;
+
+/// Finds other courses that show the same as a finding: of those that are not excluded the shortest.
+class OtherCourses {
+  public:
+    /// `distances`: for each node the scans to the finding's step, in whose scans they begin or end.
+    OtherCourses(const Explorer& explorer, Excluded& excluded, const std::vector<std::uint32_t>& distances)
+        : explorer_(explorer), excluded_(excluded), distances_(distances) {}
+
+    Excluded& excluded() const { return excluded_; }
+    /// To be led with `begin_..` and `all`.
+    Walk walk() const { return Walk(explorer_, &excluded_, &distances_); }
+
+    /// Up to and with a scan that `shows(edge)`.
+    template <class Shows>
+    std::optional<Scans> with(const Shows& shows) const {
+        std::optional<Scans> course;
+        Walk walk = this->walk();
+        walk.begin_at_power_up(0);
+        walk.all([&](const Walk::Scan& scan) {
+            if (!shows(scan.edge)) return scan.go_on(0);
+            course = scan.course(scan.images());
+            scan.stop();
+        });
+        return course;
+    }
+    /// To a node that `shows(node)`, and on with some scans.
+    template <class Shows>
+    std::optional<Scans> to(const Shows& shows, const Scans& then = {}) const {
+        std::optional<Scans> course;
+        if (shows(Explorer::Node{0}) && may_begin_with(then)) return then;
+        Walk walk = this->walk();
+        walk.begin_at_power_up(0);
+        walk.all([&](const Walk::Scan& scan) {
+            if (!shows(scan.edge.to) || !scan.may_go_on_with(then)) return scan.go_on(0);
+            course = scan.course(scan.images());
+            course->insert(course->end(), then.begin(), then.end());
+            scan.stop();
+        });
+        return course;
+    }
+
+  private:
+    bool may_begin_with(const Scans& scans) const {
+        Excluded::State state = 0;
+        for (const CourseScan& scan : scans)
+            state = state == Excluded::kOut ? state : excluded_.next(state, scan);
+        return !scans.empty() && state != Excluded::kOut;
+    }
+
+    const Explorer& explorer_;
+    Excluded& excluded_;
+    const std::vector<std::uint32_t>& distances_;
+};
+
+using Other = std::function<std::optional<Scans>(const OtherCourses&)>;
+
 /// A check that found something.
 struct Finding {
     std::string_view code;
     std::uint8_t step = 0;
     std::string reason;
-    std::vector<CourseScan> way;  ///< the course that shows it; may be empty
+    Scans way;      ///< the course that shows it; may be empty
+    Other other{};  ///< while the explorer is there
 };
 
 /// Courses to places; with `excluded`, others than these.
@@ -47,6 +107,10 @@ struct Subject {
     /// Motor registers that a permitted value makes 0, whatever the table writes.
     const std::vector<std::uint8_t>& may_be_zero;
 };
+
+/// For each node, the least scans to the beginning of one of the step; kFar if there are none.
+std::vector<std::uint32_t> distances_to_step(const Explorer& explorer, const EdgesBack& back,
+                                             std::uint8_t step);
 
 std::vector<Finding> check_steps(const Subject& subject);
 std::vector<Finding> find_rounds(const Subject& subject);

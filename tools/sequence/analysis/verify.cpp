@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "analysis/story.h"
@@ -109,37 +111,42 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
     return result;
 }
 
-using CheckFunction = std::vector<Finding> (*)(const Subject&);
+/// Finds courses for the findings of the checks. What one learns of courses that cannot be holds for all;
+/// each has its own work.
+class CheckedCourses {
+  public:
+    explicit CheckedCourses(const Decider& decider)
+        : decider_(decider), explorer_(decider.coarse()), excluded_(explorer_) {}
 
-/// For each scan: to repeat some checks.
-constexpr std::uint64_t kWorkOfChecks = 8;
+    /// The finding's own course, or another that shows the same.
+    Decider::Finding of(const Finding& finding) {
+        excluded_.begin_question();
+        const auto next = [&, is_first = true](Excluded& excluded) mutable -> std::optional<Way> {
+            if (std::exchange(is_first, false)) return Way{.scans = finding.way};
+            auto scans = finding.other(OtherCourses(explorer_, excluded, distances_to(finding.step)));
+            if (!scans) return std::nullopt;
+            return Way{.scans = std::move(*scans)};
+        };
+        return decider_.tried(excluded_, next);
+    }
 
-/// The findings of some checks, and how to repeat these.
-struct Found {
-    CheckFunction function;
-    Finding finding;
+  private:
+    const std::vector<std::uint32_t>& distances_to(std::uint8_t step) {
+        if (!back_) back_.emplace(explorer_.edges(), explorer_.size());
+        std::vector<std::uint32_t>& distances = distances_[step];
+        if (distances.empty()) distances = distances_to_step(explorer_, *back_, step);
+        return distances;
+    }
+
+    const Decider& decider_;
+    const Explorer& explorer_;
+    Excluded excluded_;
+    std::optional<EdgesBack> back_;
+    std::array<std::vector<std::uint32_t>, 64> distances_;  ///< by step, once they are asked for
 };
 
-/// Courses that show a finding, beginning with the finding's own.
-Decider::Ask courses_of(const Found& found, const Explorer& explorer, const Names& names,
-                        const Options& options) {
-    return [&, is_first = true](Excluded& excluded) mutable -> std::optional<Way> {
-        if (std::exchange(is_first, false)) return Way{.scans = found.finding.way};
-        excluded.count_work(kWorkOfChecks * explorer.edges().size());
-        if (excluded.is_worn_out()) return std::nullopt;
-        Courses courses(explorer, &excluded);
-        for (Finding& finding : found.function({explorer, names, courses, options.may_be_zero})) {
-            if (finding.code == found.finding.code && finding.step == found.finding.step &&
-                !finding.way.empty())
-                return Way{.scans = std::move(finding.way)};
-        }
-        return std::nullopt;
-    };
-}
-
-Result result_of(const Decider& decider, const Check& check, const Found& found, const Names& names,
-                 const Options& options, Excluded& excluded) {
-    const Finding& finding = found.finding;
+Result result_of(const Check& check, const Finding& finding, const Names& names, const Options& options,
+                 CheckedCourses& courses) {
     Result result{.name = fmt::format("{}.{}", check.name, step_name(names, finding.step)),
                   .code = std::string(check.code),
                   .step = finding.step,
@@ -153,7 +160,7 @@ Result result_of(const Decider& decider, const Check& check, const Found& found,
         result.severity = Severity::advice;
     }
     if (!finding.way.empty()) {
-        Decider::Finding shown = decider.tried(excluded, courses_of(found, decider.coarse(), names, options));
+        Decider::Finding shown = courses.of(finding);
         keep(result, std::move(shown.played));
         if (!result.course) {
             result.verdict = Verdict::undecided;
@@ -166,13 +173,12 @@ Result result_of(const Decider& decider, const Check& check, const Found& found,
 
 /// Where ERROR lasts forever no way leads out of a fault step, or the step is entered again: that is one
 /// mistake.
-void drop_what_errors_explain(std::vector<Found>& findings) {
+void drop_what_errors_explain(std::vector<Finding>& findings) {
     std::uint64_t steps = 0;
-    for (const auto& [function, finding] : findings) {
+    for (const Finding& finding : findings) {
         if (finding.code == "V004" || finding.code == "V005") steps |= std::uint64_t{1} << finding.step;
     }
-    std::erase_if(findings, [&](const Found& found) {
-        const Finding& finding = found.finding;
+    std::erase_if(findings, [&](const Finding& finding) {
         const bool is_round_in_error =
             finding.code == "V013" && (finding.way.back().images & images_with_bit(7)).any();
         const bool follows = finding.code == "V002" || finding.code == "V003" || is_round_in_error;
@@ -184,21 +190,21 @@ void drop_what_errors_explain(std::vector<Found>& findings) {
 void judge_checks(const Decider& decider, const Names& names, const Options& options,
                   std::vector<Result>& results) {
     const Explorer& explorer = decider.coarse();
-    std::vector<Found> findings;
+    std::vector<Finding> findings;
     if (explorer.has_all_edges()) {
         Courses courses(explorer);
         for (auto* const check : {&check_steps, &check_errors, &check_zeros, &check_motor}) {
             for (Finding& finding : check({explorer, names, courses, options.may_be_zero}))
-                findings.push_back({check, std::move(finding)});
+                findings.push_back(std::move(finding));
         }
     }
     drop_what_errors_explain(findings);
-    Excluded excluded(explorer);  // together, so that the work does not grow with what is found
+    CheckedCourses shown(decider);
     for (const Check& check : checks()) {
         const std::size_t before = results.size();
-        for (const Found& found : findings) {
-            if (found.finding.code == check.code)
-                results.push_back(result_of(decider, check, found, names, options, excluded));
+        for (const Finding& finding : findings) {
+            if (finding.code == check.code)
+                results.push_back(result_of(check, finding, names, options, shown));
         }
         if (results.size() > before) continue;
         results.push_back({.name = std::string(check.name),
@@ -243,10 +249,16 @@ void note_vacuous(Result& result, const Explorer& explorer, const Property& prop
     result.reason = "but it says nothing: " + why;
 }
 
+bool sees_error(const Course& course) {
+    return std::any_of(course.begin(), course.end(),
+                       [](const PlayedScan& scan) { return (scan.image & sequencer::kError) != 0; });
+}
+
 /// A proof of what is possible counts ways on which the motor gets an ERROR.
 void note_only_by_error(Result& result, const Decider& decider, const Property& property, std::size_t target,
                         const Names& names) {
     if (property.form == Form::reachable) {
+        if (result.course && !sees_error(*result.course)) return;  // which is such a course
         if (!decider.is_reached_only_by_error(target)) return;
         result.reason = "but only by way of ERROR: no course without one leads to such a scan";
     } else if (property.form == Form::always_possible || property.form == Form::after_possible) {

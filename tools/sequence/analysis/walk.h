@@ -17,10 +17,16 @@ class Walk {
   public:
     using Memory = std::uint16_t;
 
-    /// With `excluded`, excluded courses are not followed.
-    explicit Walk(const Explorer& explorer, Excluded* excluded = nullptr)
-        : explorer_(explorer), excluded_(excluded), known_(excluded == nullptr ? explorer.size() : 0) {
-        reached_.reserve(4 * explorer.size());
+    /// With `excluded`, excluded courses are not followed; with `distances` to where it goes too, from each
+    /// node at most as many scans as there can be, the shortest courses there come first, and kFar leads
+    /// nowhere.
+    explicit Walk(const Explorer& explorer, Excluded* excluded = nullptr,
+                  const std::vector<std::uint32_t>* distances = nullptr)
+        : explorer_(explorer),
+          excluded_(excluded),
+          distances_(distances),
+          known_(excluded == nullptr ? explorer.size() : 0) {
+        if (distances == nullptr) reached_.reserve(4 * explorer.size());
     }
 
     void begin_at_power_up(Memory memory) { add({.node = 0, .memory = memory}); }
@@ -52,6 +58,15 @@ class Walk {
             return walk_.excluded_ == nullptr ||
                    !walk_.excluded_->ends_out(walk_.reached_[at_].state, edge, begins);
         }
+        /// Whether these scans may follow it.
+        bool may_go_on_with(const std::vector<CourseScan>& then) const {
+            Excluded::State state = walk_.excluded_->next(walk_.reached_[at_].state, edge);
+            for (const CourseScan& scan : then)
+                state = state == Excluded::kOut ? state : walk_.excluded_->next(state, scan);
+            return state != Excluded::kOut;
+        }
+        /// No other is passed after this one, if there are excluded courses.
+        void stop() const { walk_.stopped_ = true; }
         /// The course to it.
         std::vector<CourseScan> course(const ImageSet& some) const {
             std::vector<CourseScan> course = walk_.course_to(at_);
@@ -117,11 +132,11 @@ class Walk {
         std::stable_sort(sources_.begin(), sources_.end(),
                          [](const Reached& a, const Reached& b) { return a.edge < b.edge; });
         if (!sources_.empty()) add({.is_before = true});
-        for (std::uint32_t at = 0; at < reached_.size(); ++at) {
+        for (std::uint32_t at = next_open(); at != kNone && !stopped_; at = next_open()) {
             const Reached here = reached_[at];
             for (const Explorer::Edge& edge : explorer_.edges_from(here.node)) {
                 excluded_->count_work();
-                if (excluded_->is_worn_out()) return;
+                if (excluded_->is_worn_out() || stopped_) return;
                 const Excluded::State state = excluded_->next(here.state, edge);
                 if (state == Excluded::kOut) continue;
                 if (here.is_before) {
@@ -177,15 +192,40 @@ class Walk {
 
     void add(const Reached& place) {
         if (excluded_ != nullptr) {
-            const std::uint64_t key = place.node | std::uint64_t{place.memory} << 32U |
-                                      (place.is_before ? std::uint64_t{1} << 38U : 0U) |
-                                      std::uint64_t{place.state} << 39U;
-            if (places_.insert(key).second) reached_.push_back(place);
+            if (distances_ != nullptr) {
+                add_open(place);
+            } else if (places_.insert(key_of(place)).second) {
+                reached_.push_back(place);
+            }
             return;
         }
         if (knows(place.node, place.memory)) return;
         known_[place.node] |= std::uint64_t{1} << place.memory;
         reached_.push_back(place);
+    }
+    static std::uint64_t key_of(const Reached& place) {
+        return place.node | std::uint64_t{place.memory} << 32U |
+               (place.is_before ? std::uint64_t{1} << 38U : 0U) | std::uint64_t{place.state} << 39U;
+    }
+    void add_open(const Reached& place) {
+        const std::uint32_t distance = (*distances_)[place.node];
+        if (distance == kFar || places_.contains(key_of(place))) return;
+        const std::size_t length = std::size_t{place.depth} + distance;
+        if (length >= open_.size()) open_.resize(length + 1);
+        open_[length].push_back(static_cast<std::uint32_t>(reached_.size()));
+        reached_.push_back(place);
+    }
+    /// The next that is to be followed; kNone at the end.
+    std::uint32_t next_open() {
+        if (distances_ == nullptr) return next_ < reached_.size() ? next_++ : kNone;
+        for (; next_ < open_.size(); ++next_) {
+            while (!open_[next_].empty()) {
+                const std::uint32_t at = open_[next_].back();
+                open_[next_].pop_back();
+                if (places_.insert(key_of(reached_[at])).second) return at;
+            }
+        }
+        return kNone;
     }
     bool knows(Explorer::Node node, Memory memory) const { return ((known_[node] >> memory) & 1U) != 0; }
 
@@ -210,6 +250,10 @@ class Walk {
 
     const Explorer& explorer_;
     Excluded* const excluded_;
+    const std::vector<std::uint32_t>* const distances_;
+    std::vector<std::vector<std::uint32_t>> open_;  ///< with distances: by the length of courses
+    std::uint32_t next_ = 0;                        ///< with excluded courses: of `open_`, else of `reached_`
+    bool stopped_ = false;
     std::unordered_set<std::uint64_t> places_;  ///< with what is excluded in view: those that were reached
     std::vector<std::uint64_t> known_;          ///< of each node what was remembered there, a bit each
     std::vector<Reached> reached_;
