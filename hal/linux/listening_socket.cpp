@@ -9,6 +9,7 @@
 #include <cerrno>
 
 #include "hal_linux/group.h"
+#include "hal_linux/tcp_listener.h"
 #include "host/endpoint.h"
 #include "reason.h"
 #include "socket_address.h"
@@ -95,7 +96,7 @@ ListeningSocket listen_at_port(const std::string& where) {
     if (listener) ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (!listener || ::bind(listener.get(), generic(*address), sizeof *address) != 0 ||
         ::listen(listener.get(), SOMAXCONN) != 0)
-        return failed(asked + ": " + reason());
+        return failed(asked + ": " + reason() + "; " + listen_remedy(errno));
     const std::string name = tcp_name(listener.get());
     return {std::move(listener), name, BoundPath(), {}};
 }

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 
 namespace nplc::hal_linux {
@@ -60,6 +61,32 @@ std::uint16_t port_of(int descriptor) {
 
 }  // namespace
 
+std::string listen_remedy(int error) {
+    switch (error) {
+        case EACCES:
+            return "a port below 1024 needs the right to it; write one above 1023, or `systemctl edit "
+                   "nanoplc` "
+                   "with [Service], AmbientCapabilities=CAP_NET_BIND_SERVICE and "
+                   "CapabilityBoundingSet=CAP_NET_BIND_SERVICE";
+        case EADDRINUSE:
+            return "another program listens there, and `ss -ltnp` as root names it; end it, or write another "
+                   "port";
+        case EADDRNOTAVAIL:
+            return "this machine has no such address now; write one that `ip -br address` lists, or 0.0.0.0 "
+                   "for all";
+        case EAFNOSUPPORT:
+            return "this machine does not have this kind of address; write one of IPv4";
+        default:
+            return "write another address or port";
+    }
+}
+
+bool is_privileged(unsigned port) {
+    unsigned first = 1024;
+    std::ifstream("/proc/sys/net/ipv4/ip_unprivileged_port_start") >> first;
+    return port != 0 && port < first;
+}
+
 TcpListener::~TcpListener() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -73,14 +100,33 @@ std::string TcpListener::mistake_in(const std::string& where) {
     return {};
 }
 
+unsigned TcpListener::port_in(const std::string& where) {
+    const std::string port = where.substr(where.rfind(':') + 1);
+    const bool is_number =
+        !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? static_cast<unsigned>(std::stoul(port)) : 0;
+}
+
+bool TcpListener::has_address(const std::string& where) {
+    AddressList list;
+    const auto place = place_of(where);
+    if (!place || look_up({.host = place->host, .port = "0"}, list) != 0) return false;
+    const int descriptor = ::socket(list.first->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) return false;
+    const bool is_bound = ::bind(descriptor, list.first->ai_addr, list.first->ai_addrlen) == 0;
+    const int cause = errno;
+    ::close(descriptor);
+    return is_bound || cause != EADDRNOTAVAIL;
+}
+
 std::string TcpListener::open(const std::string& where) {
     const Place place = place_of(where).value_or(Place{});
     AddressList list;
     if (place.host.empty() || look_up(place, list) != 0)
         return fmt::format("{} {}", where, mistake_in(where));
     const auto fail = [&where](const char* what) {
-        return fmt::format("{}: {}: {}; name another port, or end the program that has it", where, what,
-                           std::strerror(errno));
+        const int cause = errno;
+        return fmt::format("{}: {}: {}; {}", where, what, std::strerror(cause), listen_remedy(cause));
     };
     descriptor_ = ::socket(list.first->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor_ < 0) return fail("no socket");

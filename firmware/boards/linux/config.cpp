@@ -322,11 +322,7 @@ class Reader {
 
     /// Two that listen at one port of this machine, at one address or one of them at all.
     void find_double_ports() {
-        std::vector<LocatedText> listeners{result_.config.panel.listen, result_.config.modbus.listen,
-                                           result_.config.metrics.listen};
-        for (const AxisConfig& axis : result_.config.axes) {
-            if (axis.user_port.text.starts_with("tcp:")) listeners.push_back(axis.user_port);
-        }
+        const std::vector<LocatedText> listeners = result_.config.tcp_places();
         for (auto one = listeners.begin(); one != listeners.end(); ++one) {
             const auto first = std::find_if(listeners.begin(), one, [one](const LocatedText& other) {
                 return share_a_port(other.text, one->text);
@@ -351,6 +347,17 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<LocatedText> Config::tcp_places() const {
+    std::vector<LocatedText> places;
+    for (const LocatedText& place : {panel.listen, modbus.listen, metrics.listen}) {
+        if (place.is_there()) places.push_back(place);
+    }
+    for (const AxisConfig& axis : axes) {
+        if (axis.user_port.text.starts_with("tcp:")) places.push_back(axis.user_port);
+    }
+    return places;
+}
 
 std::string line_id(const std::string& where) {
     return where.starts_with("/dev/") ? where.substr(5) : where;

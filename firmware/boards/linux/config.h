@@ -66,6 +66,9 @@ struct Config {
     MetricsConfig metrics;
     MqttConfig mqtt;
     std::vector<AxisConfig> axes;
+
+    /// Where TCP ports are listened at: "tcp:ADDRESS:PORT" or "ADDRESS:PORT".
+    std::vector<LocatedText> tcp_places() const;
 };
 
 struct ReadConfig {

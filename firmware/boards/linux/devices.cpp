@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
 #include "config.h"
 #include "hal_linux/group.h"
+#include "hal_linux/tcp_listener.h"
 #include "registers/gateway.h"
 #include "seat/secret.h"
 
@@ -108,6 +110,15 @@ bool may_read(const LocatedText& file, std::vector<Mistake>& missing) {
     return false;
 }
 
+/// The address alone: its port may be the running service's own.
+void check_place(const LocatedText& place, std::vector<Mistake>& missing) {
+    using hal_linux::TcpListener;
+    const std::string where = (place.text.starts_with("tcp:") ? "" : "tcp:") + place.text;
+    if (TcpListener::mistake_in(where).empty() && !TcpListener::has_address(where))
+        missing.push_back({place.line, place.key,
+                           fmt::format("{}: {}", place.text, hal_linux::listen_remedy(EADDRNOTAVAIL))});
+}
+
 /// Only of a client that is switched on.
 void check_mqtt(const MqttConfig& mqtt, std::vector<Mistake>& missing) {
     if (!mqtt.broker.is_there()) return;
@@ -170,6 +181,7 @@ std::vector<Mistake> missing_devices(const Config& config) {
     check_serial(config.modbus.rtu_port, missing);
     for (const LocatedText& file : {config.panel.token_file, config.panel.password_file})
         check_secret(file, kMostPanelSecret, missing);
+    for (const LocatedText& place : config.tcp_places()) check_place(place, missing);
     check_mqtt(config.mqtt, missing);
     if (const LocatedText& device = config.watchdog_device;
         device.is_there() && !is_character_device(device.text))

@@ -98,9 +98,24 @@ StoredFindings look_around(const Config& config) {
     return found;
 }
 
+/// Whatever is missing: what an engineer has to open in the plant's network.
+void print_what_is_there(const Options& options, const Config& config,
+                         const std::vector<std::string>& notes) {
+    std::vector<Mistake> warnings = options.no_devices ? std::vector<Mistake>{} : slow_adapters(config);
+    for (auto* more : {plant_warnings, port_warnings}) {
+        for (const Mistake& warning : more(config)) warnings.push_back(warning);
+    }
+    for (Mistake& warning : warnings) warning.text = "warning: " + warning.text;
+    print(options.file, warnings);
+    for (const std::string& note : notes) fmt::print("{}\n", note);
+    for (const std::string& line : faces_in_words(config)) fmt::print("{}\n", line);
+    std::fflush(stdout);
+}
+
 int check(const Options& options) {
     const Loaded loaded = load(options.file);
     const StoredFindings found = options.no_devices ? StoredFindings{} : look_around(loaded.config);
+    if (loaded.is_whole && !options.keys) print_what_is_there(options, loaded.config, found.notes);
     print(options.file, found.troubles);
     if (!loaded.is_whole) return kWrong;
     if (!found.troubles.empty()) return kNoDevice;
@@ -108,13 +123,6 @@ int check(const Options& options) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
-    std::vector<Mistake> warnings =
-        options.no_devices ? std::vector<Mistake>{} : slow_adapters(loaded.config);
-    for (const Mistake& warning : plant_warnings(loaded.config)) warnings.push_back(warning);
-    for (Mistake& warning : warnings) warning.text = "warning: " + warning.text;
-    print(options.file, warnings);
-    for (const std::string& note : found.notes) fmt::print("{}\n", note);
-    for (const std::string& line : faces_in_words(loaded.config)) fmt::print("{}\n", line);
     const std::size_t axes = loaded.config.axes.size();
     fmt::print("{}: in order, {} {}\n", options.file, axes, axes == 1 ? "axis" : "axes");
     return kDone;

@@ -43,7 +43,8 @@ void read_names(Section& section, mqtt::Options& options) {
 
 void read_secrets(Section& section, MqttConfig& config) {
     mqtt::Options& options = config.options;
-    options.user = located_text(section, "user").text;
+    config.user = located_text(section, "user");
+    options.user = config.user.text;
     config.password_file = located_text(section, "password_file");
     options.password_file = config.password_file.text;
     const auto read_file = [&](const char* key) {
@@ -178,6 +179,15 @@ std::optional<Mistake> clear_text(const MqttConfig& config) {
                        fmt::format("without a ca_file the password goes to {} in clear text; name a ca_file",
                                    options.host)};
     return std::nullopt;
+}
+
+std::optional<Mistake> no_password(const MqttConfig& config) {
+    const mqtt::Options& options = config.options;
+    const bool proves_itself = !options.password_file.empty() || !options.certificate_file.empty();
+    if (!config.broker.is_there() || !config.user.is_there() || proves_itself) return std::nullopt;
+    return Mistake{
+        config.user.line, config.user.key,
+        fmt::format("{} goes to the broker without a password; name a password_file", options.user)};
 }
 
 }  // namespace nplc::boards

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "faces/program_version.h"
+#include "hal_linux/tcp_listener.h"
 #include "mqtt/client.h"
 
 namespace nplc::boards {
@@ -54,8 +56,19 @@ std::optional<Mistake> moving_units(const Config& config) {
 
 std::vector<Mistake> plant_warnings(const Config& config) {
     std::vector<Mistake> warnings;
-    for (const auto& warning : {clear_text(config.mqtt), moving_units(config)}) {
+    for (const auto& warning : {clear_text(config.mqtt), no_password(config.mqtt), moving_units(config)}) {
         if (warning) warnings.push_back(*warning);
+    }
+    return warnings;
+}
+
+std::vector<Mistake> port_warnings(const Config& config) {
+    std::vector<Mistake> warnings;
+    for (const LocatedText& place : config.tcp_places()) {
+        const unsigned port = hal_linux::TcpListener::port_in(place.text);
+        if (!hal_linux::is_privileged(port)) continue;
+        warnings.push_back(
+            {place.line, place.key, fmt::format("port {}: {}", port, hal_linux::listen_remedy(EACCES))});
     }
     return warnings;
 }

@@ -18,6 +18,9 @@ std::vector<std::string> faces_in_words(const Config& config);
 /// For `check-config` and the journal at the start: what works, but not as most want it.
 std::vector<Mistake> plant_warnings(const Config& config);
 
+/// For `check-config`: ports that need a right which the package's service does not have.
+std::vector<Mistake> port_warnings(const Config& config);
+
 /// The configured plant interfaces. A missing one stops no axis and is retried.
 class PlantPart {
   public:

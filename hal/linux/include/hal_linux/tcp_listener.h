@@ -5,6 +5,11 @@
 
 namespace nplc::hal_linux {
 
+/// What is to be done about the errno of a TCP socket that cannot be bound or listen; one clause.
+std::string listen_remedy(int error);
+/// A TCP port that this machine keeps for programs with CAP_NET_BIND_SERVICE, usually one below 1024.
+bool is_privileged(unsigned port);
+
 /// A listening TCP socket for any number of clients. Neither it nor the clients' sockets block.
 class TcpListener {
   public:
@@ -29,6 +34,10 @@ class TcpListener {
 
     /// Why `where` is no valid address; empty if it is.
     static std::string mistake_in(const std::string& where);
+    /// Whether this machine has the address of a valid `where` now.
+    static bool has_address(const std::string& where);
+    /// Its port, with or without "tcp:" before the address; 0: none.
+    static unsigned port_in(const std::string& where);
 
   private:
     int descriptor_ = -1;
