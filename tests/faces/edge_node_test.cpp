@@ -80,6 +80,20 @@ struct Host {
         });
     }
 
+    /// Metric Command/last of the last message that has it, by its alias.
+    std::string last_command() const {
+        std::optional<std::uint64_t> alias;
+        std::string last;
+        for (const auto& [topic, payload] : sent) {
+            for (const Metric& one : payload.metrics) {
+                if (one.name == "Command/last") alias = one.alias;
+                const auto* text = std::get_if<std::string>(&one.value);
+                if (alias && one.alias == alias && text != nullptr) last = *text;
+            }
+        }
+        return last;
+    }
+
     SetPointBench port;
     faces::AxisModel model{"x"};
     faces::AxisLoop loop{model, {}};
@@ -159,6 +173,51 @@ TEST(EdgeNode, AnOldStopIsNotTaken) {
     host.command(host.metric("Command/run", true));
     host.command(host.metric("Command/stop", true, -1'100ms));
     EXPECT_TRUE(host.runs());
+}
+
+/// Of a message that comes now, with a timestamp that far from the gateway's clock.
+TEST(EdgeNode, WhyACommandIsNotCarriedOutIsSaid) {
+    const auto said_of = [](base::Milliseconds ahead, const std::string& part) {
+        Host host;
+        host.command(host.metric("Command/run", true, ahead));
+        EXPECT_FALSE(host.runs());
+        EXPECT_FALSE(host.has_said("waited longer than 1 s to be read"));
+        return host.has_said(part);
+    };
+    EXPECT_TRUE(said_of(
+        -2h, "the timestamp is 7200.000 s behind the gateway's clock, and command_age allows 1000 ms"));
+    EXPECT_TRUE(said_of(1'250ms, "the timestamp is 1.250 s ahead of the gateway's clock"));
+    Host host;
+    Metric none = host.metric("Command/run", true);
+    none.timestamp = 0;
+    host.command(none);
+    EXPECT_TRUE(host.has_said("the message has no timestamp"));
+    Host of_retained;
+    const std::string payload = encode(
+        {.timestamp = of_retained.milliseconds(), .metrics = {of_retained.metric("Command/run", true)}});
+    of_retained.node.receive({.topic = "spBv1.0/nanoplc/DCMD/nanoplc/x",
+                              .payload = payload,
+                              .is_retained = true,
+                              .arrived = of_retained.now()},
+                             of_retained.moment());
+    of_retained.run(100ms);
+    EXPECT_TRUE(of_retained.has_said("the message is retained"));
+    Host of_repeated;
+    const Metric run = of_repeated.metric("Command/run", true);
+    of_repeated.command(run);
+    of_repeated.command(run);
+    EXPECT_TRUE(of_repeated.has_said("not later than that of the last command"));
+}
+
+TEST(EdgeNode, ACommandHasOneNameTakenOrRefused) {
+    for (const bool is_allowed : {true, false}) {
+        Options options = Host::all();
+        if (!is_allowed) options.commands = {gw::Command::stop};
+        Host host(options);
+        host.command(host.metric("Command/run", true));
+        EXPECT_EQ(host.runs(), is_allowed);
+        EXPECT_EQ(host.last_command(), "run") << is_allowed;
+    }
 }
 
 TEST(EdgeNode, ANodeOrGroupMayBeCalledState) {

@@ -21,11 +21,12 @@ bool is_true(const Metric& metric) {
     return flag != nullptr && *flag;
 }
 
-/// As the host wrote it.
+/// As the host wrote it; a command without its folder, as one that was taken.
 std::string shown_name(const Metric& metric) {
     constexpr std::size_t kLongestName = 64;
-    return metric.name.empty() ? fmt::format("alias {}", metric.alias.value_or(0))
-                               : metric.name.substr(0, kLongestName);
+    if (metric.name.empty()) return fmt::format("alias {}", metric.alias.value_or(0));
+    const std::size_t begin = metric.name.starts_with(kCommand) ? kCommand.size() : 0;
+    return metric.name.substr(begin, kLongestName);
 }
 
 std::optional<double> number_in(const Metric& metric) {
@@ -73,16 +74,27 @@ void EdgeNode::submit(Device& device, const std::string& what, const faces::Comm
     device.sets_values = command.reg == gw::SET_POINT_WRITE;
 }
 
-/// Rejects retained commands, those that may have waited in a queue, and repeated ones; a stop may be older
-/// than the last command, which another host with another clock may have sent.
-bool EdgeNode::is_too_late(Device& device, const Given& given, bool stops) {
+/// Why a command is not carried out that is retained, may have waited in a queue, or is repeated; empty: it
+/// is. A stop may be older than the last command, which another host with another clock may have sent.
+std::string EdgeNode::lateness(Device& device, const Given& given, bool stops) const {
     const auto limit = static_cast<std::uint64_t>(options_.command_age.count());
-    const std::uint64_t apart =
-        given.timestamp > given.now ? given.timestamp - given.now : given.now - given.timestamp;
-    if (given.message.is_retained || apart > limit) return true;
-    if (!stops && given.timestamp <= device.last_command) return true;
+    const bool is_ahead = given.timestamp > given.now;
+    const std::uint64_t apart = is_ahead ? given.timestamp - given.now : given.now - given.timestamp;
+    if (given.message.is_retained)
+        return "the message is retained, and may be old; send it without `retain`; nothing was done";
+    if (given.timestamp == 0)
+        return "the message has no timestamp, and may be old; send one with each command; nothing was done";
+    if (apart > limit)
+        return fmt::format(
+            "the timestamp is {}.{:03} s {} the gateway's clock, and command_age allows {} ms: either it "
+            "waited "
+            "on its way, or a clock is wrong; let host and gateway follow NTP; nothing was done",
+            apart / 1'000, apart % 1'000, is_ahead ? "ahead of" : "behind", limit);
+    if (!stops && given.timestamp <= device.last_command)
+        return "the timestamp is not later than that of the last command, so it may be a repeated message or "
+               "come from a host whose clock is behind another's; nothing was done";
     device.last_command = std::max(device.last_command, given.timestamp);
-    return false;
+    return {};
 }
 
 /// One command per message, or values of set-points, which are one change. A stop is carried out whatever
@@ -149,8 +161,8 @@ void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given
         return refuse(device, shown_name(metric), Result::not_allowed,
                       "it is none of the `commands` that [mqtt] allows");
     const auto order = faces::Command::of(*allowed, given.message.arrived);
-    if (is_too_late(device, given, order.is_stop()))
-        return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late);
+    if (const std::string why = lateness(device, given, order.is_stop()); !why.empty())
+        return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late, why);
     submit(device, std::string(gw::name_of(*allowed)), order);
 }
 
@@ -217,7 +229,8 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
     if (recipe != nullptr && metrics.size() != 1)
         return refuse(device, what, Result::bad_value,
                       "a recipe and values in one message; nothing was done");
-    if (is_too_late(device, given, false)) return refuse(device, what, Result::too_late);
+    if (const std::string why = lateness(device, given, false); !why.empty())
+        return refuse(device, what, Result::too_late, why);
     const auto request = recipe == nullptr
                              ? set_points::encode_request(record, gw::SetPointRequest::change, values)
                              : set_points::encode_request(record, gw::SetPointRequest::load_recipe, {},
