@@ -69,8 +69,9 @@ void ActionParser::action(Actions& list, Time after) {
         conditions_.knows(reader_.peek(1).text))
         reader_.refuse_next(
             fmt::format("an input is switched with := and the level; write {} := 1", reader_.peek(1).text));
-    if (reader_.is("set")) return set_points(list, after);
-    if (reader_.is("recipe")) return recipe(list, after);
+    if (reader_.is("set")) return add(list, after, SetPointParser(reader_, conditions_, recipes_).set());
+    if (reader_.is("recipe"))
+        return add(list, after, SetPointParser(reader_, conditions_, recipes_).recipe());
     if (reader_.take("seed")) return seed(list, after);
     if (reader_.take("log")) return log(list, after);
     if (reader_.take("end")) return add(list, after, action::End{});

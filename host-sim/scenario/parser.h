@@ -185,6 +185,27 @@ class ExpectationParser {
     std::size_t moment_begin_ = 0;
 };
 
+/// The changes of set-points. All functions throw LineMistake.
+class SetPointParser {
+  public:
+    /// `recipes`: names of the recipes that the scenario has saved so far.
+    SetPointParser(Reader& reader, ConditionParser& conditions, std::vector<std::string>& recipes)
+        : reader_(reader), conditions_(conditions), recipes_(recipes) {}
+
+    /// set Length := 60 mm and Dwell := 800 ms
+    action::SetPoints set();
+    /// recipe save "Short", recipe load "Short"
+    action::SetPoints recipe();
+
+  private:
+    void needs_set_points() const;
+    std::string no_such_point(std::string_view name) const;
+
+    Reader& reader_;
+    ConditionParser& conditions_;
+    std::vector<std::string>& recipes_;
+};
+
 /// The actions of a scenario. All functions throw LineMistake.
 class ActionParser {
   public:
@@ -244,11 +265,6 @@ class ActionParser {
     action::ForceSignals signal_to_force();
     void force(Actions& list, Time after);
     void release(Actions& list, Time after);
-    // set_point_parser.cpp
-    void needs_set_points() const;
-    std::string no_such_point(std::string_view name) const;
-    void set_points(Actions& list, Time after);
-    void recipe(Actions& list, Time after);
     void seed(Actions& list, Time after);
     void log(Actions& list, Time after);
 

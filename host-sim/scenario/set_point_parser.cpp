@@ -20,13 +20,13 @@ constexpr double kRounded = 0.5;  // a value in whole steps is so far from the o
 
 }  // namespace
 
-void ActionParser::needs_set_points() const {
+void SetPointParser::needs_set_points() const {
     if (conditions_.names().set_points.values.empty())
         reader_.refuse_next("the program has no set-points; declare one with SET_POINT");
 }
 
 /// The compiler leaves out what nothing uses.
-std::string ActionParser::no_such_point(std::string_view name) const {
+std::string SetPointParser::no_such_point(std::string_view name) const {
     std::string known;
     for (const set_points::SetPoint& point : conditions_.names().set_points.values)
         known += (known.empty() ? "" : ", ") + point.name;
@@ -35,7 +35,7 @@ std::string ActionParser::no_such_point(std::string_view name) const {
         name, conditions_.names().set_points.values.size() == 1 ? "" : "one of ", known);
 }
 
-void ActionParser::set_points(Actions& list, Time after) {
+action::SetPoints SetPointParser::set() {
     needs_set_points();
     const std::size_t begin = reader_.mark();
     reader_.next();
@@ -58,9 +58,7 @@ void ActionParser::set_points(Actions& list, Time after) {
             reader_.refuse_at(mark, fmt::format("{} is set twice in one change", point->name));
         values.push_back({index, read.value});
     } while (reader_.take("and"));
-    add(list, after,
-        action::SetPoints{set_points::encode_request(record, SetPointRequest::change, values),
-                          reader_.source_since(begin)});
+    return {set_points::encode_request(record, SetPointRequest::change, values), reader_.source_since(begin)};
 }
 
 /// Length = 90 mm, Length = 90 mm +- 1 mm, Dwell < 2 s: without a unit in its own.
@@ -106,7 +104,7 @@ ConditionParser::Measure ConditionParser::point_measure(const set_points::SetPoi
 }
 
 /// By name. A scenario begins without recipes, so it can only load those it has saved.
-void ActionParser::recipe(Actions& list, Time after) {
+action::SetPoints SetPointParser::recipe() {
     needs_set_points();
     const std::size_t begin = reader_.mark();
     reader_.next();
@@ -123,12 +121,10 @@ void ActionParser::recipe(Actions& list, Time after) {
     });
     if (!is_known && !saves) reader_.refuse(fmt::format("no line above saves the recipe \"{}\"", name));
     if (!is_known) recipes_.push_back(name);
-    add(list, after,
-        action::SetPoints{
-            set_points::encode_request(conditions_.names().set_points,
+    return {set_points::encode_request(conditions_.names().set_points,
                                        saves ? SetPointRequest::save_recipe : SetPointRequest::load_recipe,
                                        {}, {.name = name}),
-            reader_.source_since(begin)});
+            reader_.source_since(begin)};
 }
 
 }  // namespace nplc::sim
