@@ -73,6 +73,18 @@ class Story(Case):
         self.assertIn("V_HOME := -277;", story)
         self.assertIn("POSITION(P1)", story)
 
+    def test_modes_and_bits_have_their_names(self):
+        self.write("modes.seq", "PROGRAM P\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; END_VAR\n"
+                   "VAR_MOTOR Kind AT HOME_MODE := BY_COMMAND = HOME1_MODE; Window AT INPOSWIN := 24; Fast AT V1 := 100 rpm; END_VAR\n"
+                   "POWER_UP INIT(Fast); NEXT := S; END_POWER_UP\n"
+                   "STEP S: OWN ERROR; IF Go THEN CNTRL_BITS := HICLK + INPSIGN; MODE_REG := V_MODE; NEXT := T; END_IF END_STEP\n"
+                   "STEP T: OWN ERROR; ENTRY HOME_MODE := 7; IF NOT Go THEN NEXT := S; END_IF END_STEP\n"
+                   "PROPERTY No: NEVER STEP = T;\nEND_PROGRAM\n")
+        story = self.verify("modes.seq")
+        self.assertIn("Kind := BY_COMMAND = HOME1_MODE; Window := 24 ", story)
+        self.assertIn("CNTRL_BITS := INPSIGN + HICLK; MODE_REG := V_MODE", story)
+        self.assertIn("Kind := 7", story)  # is no kind of homing
+
     def test_a_helper_step_is_named_with_what_to_write(self):
         self.assertIn("  Wait_to_Move is a helper step that the compiler made for a branch; it does not ask again: "
                       "write a step that tests Door\n", self.verify("camera.seq"))

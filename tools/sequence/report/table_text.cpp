@@ -238,11 +238,34 @@ std::optional<std::string> unit_as_written(std::uint8_t number, const Symbols& s
     return found == symbols.units.end() ? std::nullopt : std::optional(found->second);
 }
 
+/// As a program names it, "GP_MODE" or "BY_COMMAND = HOME1_MODE + HICLK"; nothing if a bit has no name.
+std::optional<std::string> value_in_names(const registers::Register& reg, std::uint32_t bits,
+                                          registers::Model model) {
+    if (const std::string_view name = registers::name_of_value(model, reg, bits); !name.empty())
+        return std::string(name);
+    std::string text;
+    std::uint32_t rest = bits;
+    for (const registers::Field& field : registers::fields_of(model, reg.number)) {
+        const std::uint32_t value = registers::value_in(field, bits);
+        if (value == 0) continue;
+        rest &= ~registers::mask_of(field);
+        if (field.width == 1) {
+            append(text, std::string(field.name), " + ");
+        } else if (const registers::NamedValue* named = registers::named(field, value)) {
+            append(text, fmt::format("{} = {}", field.name, named->name), " + ");
+        } else {
+            return std::nullopt;
+        }
+    }
+    return text.empty() || rest != 0 ? std::nullopt : std::optional(text);
+}
+
 /// As `with_unit`, in the unit in which the program has it. A plain number is one of counts or samples.
 std::optional<std::string> value_as_written(const sequencer::MotorOrder& write, const Symbols* symbols) {
     const registers::Register* reg =
         symbols == nullptr ? nullptr : registers::find(symbols->motor, write.reg);
     if (reg == nullptr) return std::nullopt;
+    if (auto names = value_in_names(*reg, write.value, symbols->motor)) return names;
     const std::int64_t value = value_of(write, symbols);
     const std::vector<std::string> units = fitting_units(*reg, length_of(*symbols));
     const std::string own = units.empty() ? "" : units.front();
