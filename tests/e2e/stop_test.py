@@ -453,6 +453,30 @@ class Motorless(Service):
         self.assertEqual(service.said().count("has not confirmed the stop for 1 s"), 1)
 
 
+class Stepped(ServiceCase):
+    """The motor goes in the middle of a step."""
+
+    def test_a_sequence_that_is_held_then_is_no_motor_that_is_stopped(self):
+        with open(self.path("waits.seq"), "w", encoding="utf-8") as file:
+            file.write("PROGRAM P\nMOTOR MAC140;\nPOWER_UP NEXT := Waits; END_POWER_UP\n"
+                       "STEP Waits: OWN ERROR; IF TRUE THEN TIMER := T#10s; NEXT := Passes; END_IF END_STEP\n"
+                       "STEP Passes: OWN ERROR; IF ANY ERROR AND TIMER.Q THEN NEXT := Waits; END_IF END_STEP\nEND_PROGRAM\n")
+        table = self.path("waits.bin")
+        subprocess.run([service_case.SEQC, "build", self.path("waits.seq"), "--quiet", "-o", table], check=True)
+        self.plug_in()
+        service = self.start(self.write(self.axis(table=table)))
+        self.until_status(lambda status: status["state"] == "running" and status["step"] == 2)
+        self.ctl("hold")
+        with subprocess.Popen([service_case.NANOCTL, "--port", "unix:" + self.path("x"), "step", "--wait", "60"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as step:
+            self.until_status(lambda status: status["state"] == "running")
+            self.pull_out()
+            said, complaint = step.communicate(timeout=2 * LONG)
+        self.assertEqual(step.returncode, 4, said + complaint + service.said())
+        self.assertIn("step: the sequence is held, but the motor has not confirmed the stop", complaint)
+        self.assertIn("THE MACHINE MAY STILL BE RUNNING", complaint)
+
+
 class Wire:
     """Between the gateway and the motor's terminal, until it is cut."""
 

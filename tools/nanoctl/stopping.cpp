@@ -189,6 +189,13 @@ Status status_after_stop(GatewayClient& gateway) {
     }
 }
 
+std::string doubt_of_stop(GatewayClient& gateway) {
+    const Status status = status_after_stop(gateway);
+    if (!status.has(gw::kStopUnconfirmed)) return {};
+    return fmt::format("the sequence is {}, but the motor has not confirmed the stop: {}",
+                       name_of(status.run_state), kMayStillRun);
+}
+
 Status stop_machine(GatewayClient& gateway, gw::Command command) {
     struct Deadline {
         mactalk_client::Master& master;

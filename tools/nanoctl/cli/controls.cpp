@@ -56,8 +56,14 @@ void reset(Session& session) {
     const std::uint8_t address = session.gateway().address();
     const std::string moved =
         address == before ? "" : fmt::format(", answers at address {} from now on", address);
-    session.tell(fmt::format("restarted: {}{}", name_of(status.run_state), moved),
-                 {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
+    const bool is_stopped = status.run_state == gw::RunState::stopped;
+    const std::string doubt = is_stopped ? doubt_of_stop(session.gateway()) : "";
+    session.tell(
+        fmt::format("restarted: {}{}", doubt.empty() ? std::string(name_of(status.run_state)) : doubt, moved),
+        {{"state", name_of(status.run_state)},
+         {"step", status.step},
+         {"address", address},
+         {"stop_unconfirmed", !doubt.empty()}});
 }
 
 void give_up_stop(Session& session) {

@@ -48,6 +48,12 @@ std::string cancel(Session& session) {
                        session.names().step(status.step));
 }
 
+/// The sequence is held, which is no proof that the motor is stopped.
+void expect_no_doubt(Session& session, gw::Command order) {
+    const std::string doubt = doubt_of_stop(session.gateway());
+    if (!doubt.empty()) throw NotConfirmed(fmt::format("{}: {}", name_of(order), doubt));
+}
+
 void go_once(Session& session, gw::Command order, unsigned seconds) {
     session.gateway().command(order);
     bool held = false;
@@ -57,7 +63,7 @@ void go_once(Session& session, gw::Command order, unsigned seconds) {
         session.gateway().set_goes_on({});
         throw Interrupted("interrupted and cancelled: " + cancel(session));
     }
-    if (held) return;
+    if (held) return expect_no_doubt(session, order);
     const bool stopped = session.status().run_state == gw::RunState::stopped;
     if (stopped) throw Refused(gw::Result::not_running, gw::COMMAND, 0, "the sequence was stopped meanwhile");
     throw Refused(gw::Result::not_running, gw::COMMAND, 0,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "nanoctl/gateway_client.h"
 #include "nanoctl/status.h"
@@ -42,5 +43,9 @@ std::uint32_t stop_unconfirmed_ms(GatewayClient& gateway, const Status& status);
 /// The status; while a stop is not confirmed and the link delivers, read again for kConfirmationWait at the
 /// most. Throws what GatewayClient does.
 Status status_after_stop(GatewayClient& gateway);
+
+/// For a sequence that is held or stopped: empty, or that the motor has not confirmed its stop, with
+/// kMayStillRun. Waits and throws as status_after_stop().
+std::string doubt_of_stop(GatewayClient& gateway);
 
 }  // namespace nplc::nanoctl
