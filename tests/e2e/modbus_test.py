@@ -463,12 +463,12 @@ class Served(service_case.ServiceCase):
     def test_the_map_is_csv(self):
         text = subprocess.run([service_case.NANOPLC, "modbus-map"], capture_output=True, text=True, check=True).stdout
         rows = list(csv.DictReader(io.StringIO(text)))
-        self.assertEqual(list(rows[0]), ["kind", "address", "words", "name", "unit", "access"])
+        self.assertEqual(list(rows[0]), ["address", "block", "name", "type", "words", "scale", "unit", "range", "meaning", "access"])
         self.assertEqual(len({row["name"] for row in rows}), len(rows))
         taken = set()
         for row in rows:
             for word in range(int(row["words"])):
-                place = (row["kind"], int(row["address"]) + word)
+                place = (row["block"], int(row["address"]) + word)
                 self.assertNotIn(place, taken)
                 taken.add(place)
 

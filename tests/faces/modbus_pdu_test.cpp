@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -92,6 +93,66 @@ TEST(ModbusMap, TheDocumentHasIt) {
     text << file.rdbuf();
     EXPECT_NE(text.str().find(map_as_markdown()), std::string::npos)
         << "put the output of `nanoplc modbus-map --markdown` into it";
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+    std::vector<std::string> fields{""};
+    bool is_quoted = false;
+    for (const char one : line) {
+        if (one == '"')
+            is_quoted = !is_quoted;
+        else if (one == ',' && !is_quoted)
+            fields.emplace_back();
+        else
+            fields.back() += one;
+    }
+    return fields;
+}
+
+/// A PLC's engineer imports it.
+TEST(ModbusMap, TheCsvSaysHowEachValueIsRead) {
+    std::istringstream text(map_as_csv({.unit = "mm", .per_revolution = 5}, registers::Model::mac140));
+    std::string line;
+    std::getline(text, line);
+    EXPECT_EQ(line, "address,block,name,type,words,scale,unit,range,meaning,access");
+    std::map<std::string, std::vector<std::string>> rows;
+    while (std::getline(text, line)) {
+        std::vector<std::string> fields = fields_of(line);
+        ASSERT_EQ(fields.size(), 10U) << line;
+        for (const std::size_t needed : {3U, 4U, 5U, 8U, 9U}) EXPECT_NE(fields[needed], "") << line;
+        EXPECT_EQ(fields[7].empty(), fields[3] == "text") << line;
+        rows.emplace(fields[2], std::move(fields));
+    }
+    using Row = std::vector<std::string>;
+    const auto head = [&](const std::string& name) {
+        const Row& row = rows.at(name);
+        return Row(row.begin(), row.begin() + 8);
+    };
+    // 2^31 thousandths.
+    EXPECT_EQ(head("position"), (Row{"102", "input_register", "position", "int32", "2", "0.001", "mm",
+                                     "-2147483.648..2147483.647"}));
+    EXPECT_EQ(head("ready"), (Row{"0", "discrete_input", "ready", "bool", "1", "1", "", "0..1"}));
+    EXPECT_EQ(head("step"), (Row{"3", "input_register", "step", "uint16", "1", "1", "", "0..62"}));
+    EXPECT_EQ(head("timer"),
+              (Row{"18", "input_register", "timer", "uint32", "2", "1", "ms", "0..4294967295"}));
+    // 001 3.2.5: V_SOLL is register 5, in 1/16 counts per sample; two words from 1000 + 2 n on.
+    EXPECT_EQ(rows.at("motor.V_SOLL")[0], "1010");
+    EXPECT_EQ(rows.at("motor.V_SOLL")[3], "int32");
+}
+
+TEST(ModbusMap, AValueOfTwoWordsHasASecondOne) {
+    for (const ValueRow& row : value_rows()) {
+        EXPECT_FALSE(is_second_word(row.space, row.address)) << row.name;
+        if (row.words == 2) {
+            EXPECT_TRUE(is_second_word(row.space, row.address + 1U)) << row.name;
+        }
+    }
+    for (const unsigned second : {205U, 207U, 211U, 241U, 301U, 307U, 333U})
+        EXPECT_TRUE(is_second_word(Space::input_register, second)) << second;
+    for (const unsigned other : {201U, 203U, 243U, 309U, 317U, 812U, 821U, 901U})
+        EXPECT_FALSE(is_second_word(Space::input_register, other)) << other;
+    EXPECT_FALSE(is_second_word(Space::holding_register, kCommandNumber));
+    EXPECT_TRUE(is_second_word(Space::holding_register, kSetPointsNew + 1U));
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
+
+#include "registers/scale.h"
 
 namespace nplc::modbus {
 namespace {
@@ -29,21 +32,21 @@ constexpr ValueRow kRows[] = {
     {D, 13, 1, "settings_differ"},
     {D, 14, 1, "cannot_go_on"},
     {D, 15, 1, "stop_unconfirmed"},
-    {I, 2, 1, "run_state"},
-    {I, 3, 1, "step"},
+    {I, 2, 1, "run_state", 1, false, 4},
+    {I, 3, 1, "step", 1, false, 62},
     {I, 4, 1, "counter"},
-    {I, 5, 1, "inputs"},
-    {I, 6, 1, "terminals"},
-    {I, 7, 1, "outputs"},
-    {I, 8, 1, "written_outputs"},
-    {I, 9, 1, "safe_reason"},
-    {I, 10, 1, "last_event"},
-    {I, 11, 1, "last_event_step"},
+    {I, 5, 1, "inputs", 1, false, 63},
+    {I, 6, 1, "terminals", 1, false, 63},
+    {I, 7, 1, "outputs", 1, false, 15},
+    {I, 8, 1, "written_outputs", 1, false, 15},
+    {I, 9, 1, "safe_reason", 1, false, 15},
+    {I, 10, 1, "last_event", 1, false, 255},
+    {I, 11, 1, "last_event_step", 1, false, 63},
     {I, 12, 1, "last_event_detail"},
     {I, 13, 1, "heartbeat"},
-    {I, 14, 1, "link"},
-    {I, 15, 1, "seat"},
-    {I, 16, 1, "control"},
+    {I, 14, 1, "link", 1, false, 3},
+    {I, 15, 1, "seat", 1, false, 2},
+    {I, 16, 1, "control", 1, false, 2},
     {I, 18, 2, "timer"},
     {I, 20, 2, "event_count"},
     {I, 22, 2, "uptime"},
@@ -79,6 +82,7 @@ struct OwnRow {
     std::string_view access;
     std::string_view text;
     std::uint16_t words = 1;
+    unsigned highest = 0;  ///< 0: what fits into it
 };
 
 constexpr Space C = Space::coil;
@@ -103,15 +107,18 @@ constexpr OwnRow kOwn[] = {
     {H, kRecipe, "recipe", "", "read_write", "number of the recipe that command 35 loads"},
     {H, kSetPointsWritten, "set_points_written", "", "read_write",
      "bit n: set_point_n was written by this client, and command 34 has not taken it; a 0 forgets them"},
-    {I, kSetPointCount, "set_point_count", "", "read", "set-points of the active table, 0 to 16"},
+    {I, kSetPointCount, "set_point_count", "", "read", "set-points of the active table", 1, 16},
     {I, kSetPointState, "set_point_state", "", "read",
-     "bit 0: changes wait for the sequence; 1: stored values are damaged; 2: they differ from the recipe"},
-    {I, kActiveRecipe, "active_recipe", "", "read", "number of the recipe that was loaded last; 0: none"},
+     "bit 0: changes wait for the sequence; 1: stored values are damaged; 2: they differ from the recipe", 1,
+     7},
+    {I, kActiveRecipe, "active_recipe", "", "read", "number of the recipe that was loaded last; 0: none", 1,
+     255},
     {I, kRecipeRoom, "recipe_room", "", "read", "recipes that there is room for"},
     {I, kSetPointRecord, "set_point_record", "", "read",
      "CRC-32 of names, units and ranges: another one, another table", 2},
     {I, kSetPointChanges, "set_point_changes", "", "read", "values changed since the start", 2},
-    {I, kWhySeverity, "why_severity", "", "read", "0 it cannot move, 1 it may soon stop, 2 good to know"},
+    {I, kWhySeverity, "why_severity", "", "read", "0 it cannot move, 1 it may soon stop, 2 good to know", 1,
+     2},
     {I, kWhyText, "why_text", "", "read", "the cause in words; text as of set-points, cut at its end",
      kWhyEnd - kWhyText},
     {I, kMapVersion, "map_version", "", "read", "1"},
@@ -120,7 +127,7 @@ constexpr OwnRow kOwn[] = {
     {I, kResult, "result", "", "read", "of it: 0 done, else REGISTERS.md, Results"},
     {I, kResultDetail, "result_detail", "", "read", "its detail"},
     {I, kNewEvents, "new_events", "", "read", "events since the last acknowledge"},
-    {I, kMySeat, "my_seat", "", "read", "1: this client has the seat"},
+    {I, kMySeat, "my_seat", "", "read", "1: this client has the seat", 1, 1},
     {I, kImageAge, "image_age", "ms", "read", "of all values but the motor's; 1000 and more are not read"},
 };
 
@@ -130,20 +137,93 @@ std::string_view word_of(Space space) {
     return kWords[static_cast<std::size_t>(space)];
 }
 
-/// "0.001 rev" for a register in thousandths.
-std::string unit_in_steps(const ValueRow& row, const std::string& unit) {
-    return row.steps > 1 ? fmt::format("{:g} {}", 1 / row.steps, unit) : unit;
-}
-
 struct Line {
     Space space;
     std::uint16_t address;
-    unsigned words;
     std::string name;
+    std::string type;
+    unsigned words;
+    std::string scale;
     std::string unit;
-    std::string access;
+    std::string range;
     std::string text;
+    std::string access;
 };
+
+std::string in_digits(double value) {
+    return fmt::format("{:.10g}", value);
+}
+
+std::string span_of(double low, double high, double scale) {
+    return fmt::format("{}..{}", in_digits(low * scale), in_digits(high * scale));
+}
+
+/// "uint16" and its range.
+struct Number {
+    std::string type;
+    std::string range;
+};
+
+/// highest 0: what fits into it.
+Number number_of(unsigned words, bool is_signed, double scale, unsigned highest) {
+    const double values = std::exp2(16.0 * words);
+    const double low = is_signed ? -values / 2 : 0;
+    const double most = is_signed ? values / 2 - 1 : values - 1;
+    return {fmt::format("{}int{}", is_signed ? "" : "u", 16 * words),
+            span_of(low, highest != 0 ? highest : most, scale)};
+}
+
+Line line_of(const OwnRow& row) {
+    Line line{row.space,
+              row.address,
+              std::string(row.name),
+              "bool",
+              row.words,
+              "1",
+              std::string(row.unit),
+              "0..1",
+              std::string(row.text),
+              std::string(row.access)};
+    if (row.space == C) return line;
+    const Number number = row.words <= 2 ? number_of(row.words, false, 1, row.highest) : Number{"text", ""};
+    line.type = number.type;
+    line.range = number.range;
+    return line;
+}
+
+Line line_of(const ValueRow& row, const faces::Scaling& scaling) {
+    const Number number = row.space == D ? Number{"bool", "0..1"}
+                                         : number_of(row.words, row.is_signed, 1 / row.steps, row.highest);
+    return {row.space,
+            row.address,
+            std::string(row.name),
+            number.type,
+            row.words,
+            in_digits(1 / row.steps),
+            faces::unit_of(*row.point, scaling),
+            number.range,
+            std::string(row.point->text),
+            "read"};
+}
+
+/// A motor's register as the window has it: two words, extended by its sign.
+Line line_of(const registers::Register& reg, registers::Model model) {
+    const auto units = registers::units_of(reg.unit);
+    const std::string unit(units.empty() ? "" : units.front());
+    const auto steps = registers::raw_per_unit(reg, model, unit);
+    const double scale =
+        steps ? static_cast<double>(steps->denominator) / static_cast<double>(steps->numerator) : 1;
+    return {Space::holding_register,
+            static_cast<std::uint16_t>(kMotorWindow + 2 * reg.number),
+            fmt::format("motor.{}", reg.name),
+            reg.min < 0 ? "int32" : "uint32",
+            2,
+            in_digits(scale),
+            unit,
+            span_of(static_cast<double>(reg.min), static_cast<double>(reg.max), scale),
+            fmt::format("register {} of the motor, manual {}", reg.number, reg.section),
+            reg.access == registers::Access::read_only ? "read" : "read_write"};
+}
 
 struct SetPointRow {
     Space space;
@@ -169,33 +249,51 @@ constexpr SetPointRow kSetPointRows[] = {
      "text likewise"},
 };
 
+Line line_of(const SetPointRow& row, unsigned index) {
+    const Number number = row.words == 2   ? number_of(2, true, 1, 0)
+                          : row.words == 1 ? Number{"uint16", "0..9"}
+                                           : Number{"text", ""};
+    return {row.space,
+            static_cast<std::uint16_t>(row.address + row.stride * index),
+            fmt::format("set_point_{}{}", index, row.name),
+            number.type,
+            row.words,
+            "1",
+            "",
+            number.range,
+            std::string(row.text),
+            row.space == H ? "read_write" : "read"};
+}
+
 /// The first `count` set-points and recipes.
 void add_set_points(std::vector<Line>& all, unsigned count) {
     for (const SetPointRow& row : kSetPointRows) {
         for (unsigned i = 0; i < std::min<unsigned>(count, registers::gateway::kSetPoints); ++i)
-            all.push_back({row.space, static_cast<std::uint16_t>(row.address + row.stride * i), row.words,
-                           fmt::format("set_point_{}{}", i, row.name), "",
-                           row.space == H ? "read_write" : "read", std::string(row.text)});
+            all.push_back(line_of(row, i));
     }
     for (unsigned i = 0; i < std::min<unsigned>(count, kRecipes); ++i)
-        all.push_back({I, static_cast<std::uint16_t>(kRecipeNames + kRecipeWords * i), kRecipeWords,
-                       fmt::format("recipe_{}_name", i + 1), "", "read", "text; empty: there is none"});
+        all.push_back({I, static_cast<std::uint16_t>(kRecipeNames + kRecipeWords * i),
+                       fmt::format("recipe_{}_name", i + 1), "text", kRecipeWords, "1", "", "",
+                       "text; empty: there is none", "read"});
 }
 
 std::vector<Line> lines(const faces::Scaling& scaling, unsigned set_points) {
     std::vector<Line> all;
     add_set_points(all, set_points);
-    for (const OwnRow& row : kOwn)
-        all.push_back({row.space, row.address, row.words, std::string(row.name), std::string(row.unit),
-                       std::string(row.access), std::string(row.text)});
-    for (const ValueRow& row : value_rows())
-        all.push_back({row.space, row.address, row.words, std::string(row.name),
-                       unit_in_steps(row, faces::unit_of(*row.point, scaling)), "read",
-                       std::string(row.point->text)});
+    for (const OwnRow& row : kOwn) all.push_back(line_of(row));
+    for (const ValueRow& row : value_rows()) all.push_back(line_of(row, scaling));
     std::sort(all.begin(), all.end(), [](const Line& a, const Line& b) {
         return a.space != b.space ? a.space < b.space : a.address < b.address;
     });
     return all;
+}
+
+/// Quoted where that must be.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char one : text) quoted += one == '"' ? std::string("\"\"") : std::string(1, one);
+    return quoted + "\"";
 }
 
 }  // namespace
@@ -216,24 +314,41 @@ const ValueRow* find_row(Space space, std::uint16_t address) {
     return nullptr;
 }
 
+bool is_second_word(Space space, unsigned address) {
+    const auto is_in = [address](unsigned first, unsigned end) {
+        return address > first && address < end && (address - first) % 2 != 0;
+    };
+    if (space == Space::holding_register) return is_in(kSetPointsNew, kHoldings);
+    if (space != Space::input_register || address > 0xFFFF) return false;
+    const ValueRow* row = find_row(space, static_cast<std::uint16_t>(address));
+    if (row != nullptr) return address != row->address;
+    constexpr unsigned kTextsEnd = kSetPointTexts + kTextWords * registers::gateway::kSetPoints;
+    const unsigned in_text = (address - kSetPointTexts) % kTextWords;
+    if (address >= kSetPointTexts && address < kTextsEnd)
+        return in_text < kTextOfDecimals && in_text % 2 != 0;
+    return address == kSetPointRecord + 1 || address == kSetPointChanges + 1 ||
+           is_in(kSetPointValues, kSetPointValues + 2 * registers::gateway::kSetPoints);
+}
+
 std::string map_as_csv(const faces::Scaling& scaling, registers::Model model) {
-    std::string text = "kind,address,words,name,unit,access\n";
-    for (const Line& line : lines(scaling, registers::gateway::kSetPoints))
-        text += fmt::format("{},{},{},{},{},{}\n", word_of(line.space), line.address, line.words, line.name,
-                            line.unit, line.access);
-    for (const registers::Register& reg : registers::map_of(model))
-        text += fmt::format("{},{},2,motor.{},,{}\n", word_of(Space::holding_register),
-                            kMotorWindow + 2 * reg.number, reg.name,
-                            reg.access == registers::Access::read_only ? "read" : "read_write");
+    std::vector<Line> all = lines(scaling, registers::gateway::kSetPoints);
+    for (const registers::Register& reg : registers::map_of(model)) all.push_back(line_of(reg, model));
+    std::string text = "address,block,name,type,words,scale,unit,range,meaning,access\n";
+    for (const Line& line : all)
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", line.address, word_of(line.space),
+                            csv_field(line.name), line.type, line.words, line.scale, csv_field(line.unit),
+                            line.range, csv_field(line.text), line.access);
     return text;
 }
 
 std::string map_as_markdown() {
     std::string text =
-        "| kind | address | words | name | unit | access | meaning |\n|---|---|---|---|---|---|---|\n";
+        "| address | block | name | type | words | scale | unit | range | meaning | access |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Line& line : lines({}, 1))
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", word_of(line.space), line.address,
-                            line.words, line.name, line.unit, line.access, line.text);
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", line.address,
+                            word_of(line.space), line.name, line.type, line.words, line.scale, line.unit,
+                            line.range, line.text, line.access);
     return text;
 }
 

@@ -62,10 +62,10 @@ bool asks_motor(const Request& request) {
     });
 }
 
-bool cuts_a_set_point(const Request& request) {
+/// Begins or ends between the two words of a value.
+bool cuts_a_value(const Request& request) {
     const unsigned end = request.address + unsigned{request.count};
-    const bool at_begin = request.address > kSetPointsNew && (request.address - kSetPointsNew) % 2 != 0;
-    return at_begin || (end > kSetPointsNew && (end - kSetPointsNew) % 2 != 0);
+    return is_second_word(request.space, request.address) || is_second_word(request.space, end);
 }
 
 Exception exception_of(const Completion& ended) {
@@ -179,6 +179,7 @@ std::optional<Answer> Session::serve(std::uint8_t number, std::span<const std::u
 }
 
 Answer Session::read(const Look& look, const Request& request) {
+    if (cuts_a_value(request)) return Answer::refusal(request.function, Exception::illegal_address);
     Answer answer(request);
     for (unsigned i = 0; i < request.count; ++i) {
         const Exception exception =
@@ -340,8 +341,7 @@ std::optional<Answer> Session::write_holding(const Look& look, const Request& re
     if (request.address + request.count > kHoldings)
         return Answer::refusal(request.function, Exception::illegal_address);
     const bool stops = request.address == kCommand && is_stop(request.word(0));
-    if (cuts_a_set_point(request) && !stops)
-        return Answer::refusal(request.function, Exception::illegal_address);
+    if (cuts_a_value(request) && !stops) return Answer::refusal(request.function, Exception::illegal_address);
     stage(look, request);
     std::vector<Command> commands;
     for (unsigned i = 0; i < request.count; ++i) {

@@ -163,7 +163,7 @@ constexpr Point kPoints[] = {
     {"run_state", "", W, false, "0 stopped, 1 waits for the motor, 2 running, 3 about to be held, 4 held", own<gw::STATUS, 0, 7>},
     {"step", "", W, false, "0..62", own<gw::STEP>},
     {"timer", "ms", W, false, "what is left of it", own<gw::TIMER>},
-    {"counter", "", W, false, "", own<gw::COUNTER>},
+    {"counter", "", W, false, "what the sequence counts", own<gw::COUNTER>},
     {"inputs", "", W, false, "bits 5..0 as the sequence has them, forced ones included", own<gw::INPUTS, 0, 0x3F>},
     {"terminals", "", W, false, "bits 5..0 the debounced input terminals", own<gw::INPUTS, 8, 0x3F>},
     {"outputs", "", W, false, "bits 3..0 the output terminals", own<gw::OUTPUTS, 0, 0x0F>},

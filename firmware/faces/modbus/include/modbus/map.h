@@ -22,6 +22,7 @@ struct ValueRow {
     std::string_view name;  ///< name of the point
     double steps = 1;       ///< register steps per unit
     bool is_signed = false;
+    unsigned highest = 0;  ///< 0: what fits into it
     const faces::Point* point = nullptr;
 };
 
@@ -29,6 +30,8 @@ struct ValueRow {
 std::span<const ValueRow> value_rows();
 /// The row that contains the address; null: none.
 const ValueRow* find_row(Space space, std::uint16_t address);
+/// The second word of a 32-bit value: a request that begins or ends before it would cut the value in two.
+bool is_second_word(Space space, unsigned address);
 
 using namespace registers::modbus;
 inline constexpr std::uint16_t kHoldings = kSetPointsNew + 2 * registers::gateway::kSetPoints;
@@ -66,9 +69,11 @@ enum WhyInput : std::uint16_t {
 inline constexpr std::uint16_t kRecipeWords = 8;
 inline constexpr std::uint16_t kRecipes = 8;
 
-/// The whole map with a header line: kind,address,words,name,unit,access.
+/// The whole map with a header line: address, block, name, type, words, scale (the value is the number in the
+/// words times it), unit, range (of the value), meaning, access. As in RFC 4180.
 std::string map_as_csv(const faces::Scaling& scaling, registers::Model model);
-/// The same as a table for the documentation, with descriptions; of set-points and recipes the first one.
+/// The same as a table for the documentation, without the motor's registers; of set-points and recipes the
+/// first one.
 std::string map_as_markdown();
 
 }  // namespace nplc::modbus
