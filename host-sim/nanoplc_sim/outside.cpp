@@ -106,6 +106,8 @@ class Everything final : public Outside {
         open_faces(faces_, options);
         door_.emplace(options, faces_.seat());
         panel_.emplace(options.panel, program, faces_.model());
+        if (panel_->is_open())
+            faces_.tell_writes([this](const faces::Command& one) { panel_->ordered(one); });
     }
     ports::Storage* flash() override { return flash_.get(); }
     void run(Session& session, const volatile std::sig_atomic_t& interrupted) override;
@@ -124,7 +126,10 @@ void Everything::run(Session& session, const volatile std::sig_atomic_t& interru
     if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
     if (live) session.clear_line_before_each("\r\033[K");
     door_->announce();
-    session.after_each_step([this, &session] { faces_.count(session.world()); });
+    session.after_each_step([this, &session] {
+        faces_.count(session.world());
+        panel_->look(session);
+    });
     panel_->open();
     faces_.announce();
     if (door_->is_open() || panel_->is_open() || faces_.is_open()) fmt::print("ready\n");

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostWanted = 64;
 constexpr std::size_t kMostRecord = 256 * 1024;
+constexpr std::size_t kMostSymbols = 8;
 constexpr std::string_view kBlocks = "motor blocked";
 
 panel::WebOptions web_options(const std::string& where) {
@@ -29,7 +30,36 @@ panel::WebOptions web_options(const std::string& where) {
     web.address = where.substr(0, colon);
     if (web.address.starts_with('[') && web.address.ends_with(']'))
         web.address = web.address.substr(1, web.address.size() - 2);
+    if (!panel::is_loopback(web.address))
+        throw InputError(fmt::format(
+            "--panel \"{0}\" would let other machines in, and a simulator has no password: write "
+            "127.0.0.1:{1}; another machine reaches it through a tunnel, ssh -L {1}:127.0.0.1:{1} HERE",
+            where, port));
     return web;
+}
+
+double milliseconds_of(const Session& session) {
+    return static_cast<double>(session.now().count()) / 1e6;
+}
+
+/// Replaces the program's names by those of another one.
+void rename(Names& names, std::string_view symbols) {
+    const panel::SignalNames given = panel::signals_in(symbols);
+    const auto take = [](auto& own, const std::vector<std::string>& others) {
+        for (std::size_t i = 0; i < own.size(); ++i) own[i] = i < others.size() ? others[i] : "";
+    };
+    take(names.inputs, given.inputs);
+    take(names.outputs, given.outputs);
+    names.steps = given.steps;
+    names.copy_of.clear();
+    names.groups.clear();
+    names.times.clear();
+    names.numbers = 0;
+    names.set_points = {};
+    const faces::Scaling scale = panel::scale_in(symbols);
+    names.machine.reset();
+    if (!panel::is_same(scale, {}))
+        names.machine = MachineUnit{.name = scale.unit, .per_rev = scale.per_revolution};
 }
 
 /// The scenario actions of one line, or its error.
@@ -48,7 +78,7 @@ Read read_action(const std::string& text, const Names& names) {
 }  // namespace
 
 PanelDoor::PanelDoor(const std::optional<std::string>& where, const Program& program, faces::AxisModel& axis)
-    : program_(program), axis_(axis) {
+    : program_(program), axis_(axis), names_(program.names) {
     if (!where) return;
     panel::PanelOptions options;
     options.web = web_options(*where);
@@ -100,27 +130,89 @@ void PanelDoor::clear_record() {
 }
 
 std::string PanelDoor::act(std::string_view action) {
-    Wanted wanted{std::string(action), action == kBlocks};
-    if (!wanted.blocks) {
-        if (const Read read = read_action(wanted.text, program_.names); !read.error.empty())
-            return read.error;
-    }
+    Wanted wanted{.text = std::string(action), .actions = {}, .blocks = action == kBlocks};
     const std::lock_guard lock(mutex_);
+    if (!wanted.blocks) {
+        Read read = read_action(wanted.text, names_);
+        if (!read.error.empty()) return read.error;
+        wanted.actions = std::move(read.actions);
+    }
     if (wanted_.size() >= kMostWanted) return "too much at once; try again";
     wanted_.push_back(std::move(wanted));
     return {};
 }
 
-void PanelDoor::perform(Session& session, const Wanted& wanted) {
-    const auto shaft = session.seen().shaft;
-    const std::string text =
-        wanted.blocks ? fmt::format("motor stop above {0} counts, motor stop below {0} counts", shaft)
-                      : wanted.text;
-    Read read = read_action(text, program_.names);
-    if (!read.error.empty()) return;
-    session.act(std::move(read.actions));
+void PanelDoor::perform(Session& session, Wanted wanted) {
+    if (wanted.blocks) {
+        wanted.text =
+            fmt::format("motor stop above {0} counts, motor stop below {0} counts", session.seen().shaft);
+        wanted.actions = read_action(wanted.text, program_.names).actions;
+    }
+    session.act(std::move(wanted.actions));
     const std::lock_guard lock(mutex_);
-    add_to_record(static_cast<double>(session.now().count()) / 1e6, text);
+    add_to_record(milliseconds_of(session), wanted.text);
+}
+
+void PanelDoor::ordered(const faces::Command& command) {
+    using gw = registers::gateway::Command;
+    if (command.reg != registers::gateway::COMMAND) return;
+    switch (static_cast<gw>(command.value)) {
+        case gw::stop:
+        case gw::safe:
+        case gw::run:
+        case gw::hold:
+        case gw::step:
+        case gw::scan:
+            ordered_.push_back(
+                fmt::format("gateway {}", registers::gateway::name_of(static_cast<gw>(command.value))));
+            return;
+        case gw::reset:
+            ordered_.emplace_back("gateway restart");
+            return;
+        default:
+            return;
+    }
+}
+
+void PanelDoor::look(Session& session) {
+    if (!is_open()) return;
+    const gateway::Gateway& sequence = session.world().controller().sequence();
+    const Set now{sequence.forces().inputs(), sequence.forces().outputs(), sequence.breakpoints()};
+    // Both end with a restart, in the scenario too.
+    if (std::exchange(starts_, session.world().starts()) != session.world().starts()) set_ = {};
+    if (now == set_) return;
+    const Set before = std::exchange(set_, now);
+    const double at = milliseconds_of(session);
+    const std::lock_guard lock(mutex_);
+    record_force(at, true, before.inputs, now.inputs);
+    record_force(at, false, before.outputs, now.outputs);
+    if (before.breakpoints == now.breakpoints) return;
+    std::string steps;
+    for (std::uint8_t step = 0; step < 63; ++step) {
+        if ((now.breakpoints >> step & 1U) != 0) steps += (steps.empty() ? "" : " and ") + step_name(step);
+    }
+    add_to_record(at, "gateway break " + (steps.empty() ? "none" : steps));
+}
+
+void PanelDoor::record_force(double now, bool is_input, const registers::gateway::Force& before,
+                             const registers::gateway::Force& after) {
+    for (unsigned i = 0; i < (is_input ? kInputs : kOutputs); ++i) {
+        const unsigned bit = 1U << i;
+        const bool was = (before.mask & bit) != 0;
+        const bool is = (after.mask & bit) != 0;
+        const bool level = (after.levels & bit) != 0;
+        if (!is && !was) continue;
+        if (is && was && level == ((before.levels & bit) != 0)) continue;
+        const std::string name = is_input ? names_.input(i) : names_.output(i);
+        add_to_record(now, is ? fmt::format("gateway force {} := {:d}", name, level)
+                              : fmt::format("gateway release {}", name));
+    }
+}
+
+/// A copy of a step by its number: its name is none of the program's.
+std::string PanelDoor::step_name(std::uint8_t step) const {
+    const bool is_named = names_.steps.contains(step) && !names_.copy_of.contains(step);
+    return is_named ? names_.step(step) : fmt::format("{}", step);
 }
 
 void PanelDoor::add_to_record(double milliseconds, std::string_view text) {
@@ -142,22 +234,43 @@ void PanelDoor::serve(Session& session) {
         wanted.swap(wanted_);
         state_.milliseconds = static_cast<std::uint64_t>(session.now().count() / 1'000'000);
     }
-    for (const Wanted& one : wanted) perform(session, one);
+    for (const std::string& command : std::exchange(ordered_, {})) {
+        if (command == "gateway safe") set_ = {};
+        const std::lock_guard lock(mutex_);
+        add_to_record(milliseconds_of(session), command);
+    }
+    look(session);
+    for (Wanted& one : wanted) perform(session, std::move(one));
     const std::lock_guard lock(mutex_);
     state_.is_cut = session.world().line_is_cut();
     state_.is_blocked = session.world().shaft_is_blocked();
 }
 
 PanelDoor::Found PanelDoor::find(std::size_t, std::uint32_t crc) {
-    if (crc == program_.crc32 && !program_.symbols_text.empty())
-        return {program_.file, program_.symbols_text};
-    const auto found = symbols_.find(crc);
-    return found == symbols_.end() ? Found{crc == program_.crc32 ? program_.file : "", ""}
-                                   : Found{"", found->second};
+    const auto kept = symbols_.find(crc);
+    Found found;
+    if (kept != symbols_.end()) {
+        found.text = kept->second;
+    } else if (crc == program_.crc32) {
+        found = {program_.file, program_.symbols_text};
+    }
+    const std::lock_guard lock(mutex_);
+    take_names(crc, found.text);
+    return found;
+}
+
+void PanelDoor::take_names(std::uint32_t crc, std::string_view symbols) {
+    names_ = program_.names;
+    if (crc != program_.crc32 || symbols != program_.symbols_text) rename(names_, symbols);
+    if (std::exchange(active_, crc).value_or(crc) != crc)
+        record_ += fmt::format("# at {} ms another table became active, which a scenario cannot do\n",
+                               state_.milliseconds);
 }
 
 std::string PanelDoor::keep(std::size_t, std::uint32_t crc, std::string_view text) {
-    symbols_.clear();  // the previous program's names are in program_, or it had none
+    // Of the active table and some others: one that is only stored may become active later.
+    std::erase_if(symbols_,
+                  [this](const auto& one) { return symbols_.size() > kMostSymbols && one.first != active_; });
     symbols_[crc] = std::string(text);
     if (const faces::Scaling scale = panel::scale_in(text); !panel::is_same(scale, axis_.scaling()))
         host::complain(

@@ -45,6 +45,10 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
     void open();
     /// Carries out the requests since the last call.
     void serve(Session& session);
+    /// A face's write to the gateway, when it is carried out, between two steps of the world: for the record.
+    void ordered(const faces::Command& command);
+    /// After every step of the world: records forces and breakpoints.
+    void look(Session& session);
     double speed() const;
 
     State state() const override;
@@ -61,16 +65,37 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
   private:
     struct Wanted {
         std::string text;
+        Actions actions;
         bool blocks = false;  ///< the shaft, at its present position
     };
-    void perform(Session& session, const Wanted& wanted);
+    /// What the operator has set in the gateway.
+    struct Set {
+        registers::gateway::Force inputs;
+        registers::gateway::Force outputs;
+        std::uint64_t breakpoints = 0;
+        bool operator==(const Set& other) const {
+            return inputs.in_register() == other.inputs.in_register() &&
+                   outputs.in_register() == other.outputs.in_register() && breakpoints == other.breakpoints;
+        }
+    };
+    void perform(Session& session, Wanted wanted);
+    /// These need mutex_ locked.
+    void record_force(double now, bool is_input, const registers::gateway::Force& before,
+                      const registers::gateway::Force& after);
+    std::string step_name(std::uint8_t step) const;
+    void take_names(std::uint32_t crc, std::string_view symbols);
     /// Needs mutex_ locked.
     void add_to_record(double milliseconds, std::string_view text);
 
     const Program& program_;
     const faces::AxisModel& axis_;
+    std::vector<std::string> ordered_;  ///< commands since the last serve(), as actions; of the run's thread
+    Set set_;                           ///< as recorded; of the run's thread
+    std::uint64_t starts_ = 0;          ///< of the gateway, at the last look(); of the run's thread
     mutable std::mutex mutex_;
     std::vector<Wanted> wanted_;
+    Names names_;  ///< of the active table
+    std::optional<std::uint32_t> active_;
     State state_;
     std::string record_;
     std::map<std::uint32_t, std::string> symbols_;  ///< from uploads; used by the panel's thread only

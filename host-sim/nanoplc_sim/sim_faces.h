@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "faces/axis_loop.h"
 #include "faces/program_version.h"
@@ -35,6 +37,8 @@ class SimFaces {
 
     faces::AxisModel& model() { return model_; }
     faces::Seat& seat() { return loop_.seat(); }
+    /// As AxisLoop::tell_writes, during serve().
+    void tell_writes(std::function<void(const faces::Command&)> tell) { loop_.tell_writes(std::move(tell)); }
     /// CLOCK_MONOTONIC, as hal_linux::SteadyClock reads it.
     static base::Instant now() {
         return base::Instant(std::chrono::duration_cast<base::Microseconds>(

@@ -154,6 +154,9 @@ class CommandLine(Case):
         self.refused("run", self.table, "--baud", "0", says="--baud \"0\"")
         self.refused("run", self.table, "--motor", "MAC34-1", "--baud", "1200", says="line has 9600, 19200 or 38400 baud")
         self.refused("run", self.table, "--seed", "x", says="--seed \"x\"")
+        for address in ("0.0.0.0", "[::]", "192.168.1.2"):
+            self.refused("run", self.table, "--realtime", "--panel", address + ":8080", says="write 127.0.0.1:8080; another machine")
+        self.assertNotIn("password and a token", self.refused("run", self.table, "--realtime", "--panel", "0.0.0.0:8080"))
         self.refused("run", self.table, "--debounce", "2s", says="--debounce \"2s\"")
 
 

@@ -204,6 +204,19 @@ TEST(AxisLoop, AnImageAfterACommandShowsWhatItDid) {
     EXPECT_EQ(bench.model.image(bench.now())[gw::BREAK_LOW], 8U);
 }
 
+TEST(AxisLoop, TellsOfTheWritesThatItCarriesOut) {
+    Bench bench;
+    std::vector<std::uint32_t> told;
+    bench.loop.tell_writes([&](const Command& one) {
+        if (one.reg == gw::COMMAND) told.push_back(one.value);
+    });
+    const auto value = [](gw::Command one) { return static_cast<std::uint32_t>(one); };
+    ASSERT_EQ(bench.result(*bench.panel, bench.order(gw::Command::run)), Result::done);
+    ASSERT_EQ(bench.result(*bench.panel, bench.order(gw::Command::stop)), Result::done);
+    EXPECT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::seat_taken);
+    EXPECT_EQ(told, (std::vector<std::uint32_t>{value(gw::Command::run), value(gw::Command::stop)}));
+}
+
 TEST(AxisLoop, SaysNoAsTheUsersPortDoes) {
     Bench bench;
     EXPECT_EQ(bench.result(*bench.plc, Command::own(gw::STEP, 1, bench.now())), Result::read_only);

@@ -257,17 +257,52 @@ test("an upload is compared with what is active when it is confirmed, not with w
     client.close();
   }));
 
-test("a table that is only stored: the page says how it becomes active", () =>
+test("a table that is only stored: the page says so, and makes it active after a question", () =>
   withPages(1, async (machine, page) => {
     execFileSync(join(programs, "seqc"), ["build", join(examples, "cut_to_length.seq"), "-o", path("later.bin")]);
     await operate(page, machine.token);
-    for (const [button, text] of [["#upload-store", "“Stop, store and make active” of the same file"], ["#upload-activate", "stored and active"]]) {
+    assert.equal(await page.locator("#do-activate").isVisible(), false);
+    await page.click("#do-upload");
+    await page.setInputFiles("#upload-files", [path("later.bin"), path("later.sym")]);
+    await page.click("#upload-store");
+    await hasText(page, "#notices", "by “Use stored table…”");
+    await hasText(page, "#loaded", "another table is stored");
+    await page.click("#do-activate");
+    await hasText(page, "#notices", "That stops the sequence");
+    await state(page, "running");
+    await page.click("#notices button:has-text('Stop and use it')");
+    await hasText(page, "#notices", "The stored table is active");
+    await hasText(page, "#program", "Cut_to_Length");
+    await page.waitForFunction(() => document.getElementById("do-activate").hidden);
+    await page.click("#do-run");
+    await state(page, "running");
+  }));
+
+test("the inputs of an uploaded program are clicked by its names, of one without names by their numbers", () =>
+  withPages(1, async (machine, page) => {
+    const source = file("seq", readFileSync(pick, "utf8").replaceAll(/\bStart\b/g, "Begin").replaceAll("PickAndPlace", "Renamed"));
+    execFileSync(join(programs, "seqc"), ["build", source, "-o", path("renamed.bin")]);
+    execFileSync(join(programs, "seqc"), ["build", join(examples, "cut_to_length.seq"), "-o", path("nameless.bin")]);
+    await operate(page, machine.token);
+    const upload = async (files, button, text) => {
       await page.click("#do-upload");
-      await page.setInputFiles("#upload-files", [path("later.bin"), path("later.sym")]);
+      await page.setInputFiles("#upload-files", files);
       await page.click(button);
       await hasText(page, "#notices", text);
-    }
-    await hasText(page, "#program", "Cut_to_Length");
+    };
+    await upload([path("renamed.bin"), path("renamed.sym")], "#upload-activate", "stored and active");
+    await page.click('.press[aria-label="switch Begin"]');
+    await lamp(page, "Begin", 1);
+    await upload([path("nameless.bin"), path("nameless.sym")], "#upload-store", "The table is stored.");
+    await page.click('.press[aria-label="switch Begin"]');
+    await lamp(page, "Begin", 0);
+    assert.equal(await textOf(page, "#program"), "Renamed", "that of the active table");
+    execFileSync(join(programs, "seqc"), ["build", join(examples, "fill_and_count.seq"), "-o", path("nameless.bin")]);
+    await upload([path("nameless.bin")], "#upload-activate", "stored and active");
+    await page.click('.press[aria-label="switch IN0"]');
+    await lamp(page, "IN0", 1);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
+    assert.match(readFileSync(await download.path(), "utf8"), /^# at \d+ ms another table became active/m);
   }));
 
 test("files that are no table, an empty one, two, foreign names and another motor's program are told before anything is sent", () =>
@@ -423,6 +458,41 @@ test("the simulated machine: inputs, line, shaft, time, and a scenario that does
     assert.match(again, /Idle -> Travel/);
     assert.match(again, /stop command/);
     assert.match(again, /link/);
+  }));
+
+test("commands, forces and breakpoints are recorded too, and their scenario ends as the machine did", () =>
+  withPages(1, async (machine, page) => {
+    const forced = (page, name, level) => page.selectOption(`select[aria-label="force ${name}"]`, level);
+    await operate(page, machine.token);
+    await page.click("#do-hold");
+    await state(page, "held");
+    await page.click('.press[aria-label="switch Start"]');
+    await lamp(page, "Start", 1);
+    await page.click("#do-step");
+    await inStep(page, 2);
+    await state(page, "held");
+    await forced(page, "Lamp", "1");
+    await lamp(page, "Lamp", 1);
+    await page.click('.press[aria-label="switch Start"]');
+    await lamp(page, "Start", 0);
+    await page.click('.box[data-step="4"]');
+    await page.click("#break");
+    await page.waitForSelector(".box.breaks");
+    await page.click("#do-run");
+    await state(page, "held at a breakpoint");
+    await inStep(page, 4);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
+    const recorded = readFileSync(await download.path(), "utf8");
+    for (const action of ["gateway hold", "toggle Start", "gateway step", "gateway force Lamp := 1", "gateway break Return", "gateway run"])
+      assert.match(recorded, new RegExp(`^at [\\d.]+ ms ${action}$`, "m"));
+    const wanted = `${recorded}expect at end step = Return and not RUNNING and Lamp\n`;
+    const again = execFileSync(join(programs, "nanoplc-sim"), ["run", pick, "--scenario", file("scn", wanted)], { encoding: "utf8" });
+    assert.match(again, /Idle -> Travel/);
+    await forced(page, "Lamp", "");
+    await page.click("#do-safe");
+    await state(page, "stopped: safe command");
+    const [more] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
+    assert.match(readFileSync(await more.path(), "utf8"), /gateway release Lamp\nat [\d.]+ ms gateway safe$/m);
   }));
 
 test("a keyboard is enough", () =>

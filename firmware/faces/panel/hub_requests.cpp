@@ -165,10 +165,6 @@ void Hub::submit(ClientId client, Session& session, std::size_t axis, const Requ
     const auto id = part.desk->submit(*asked.command);
     if (!id) return answer(client, request, "refused", "too many commands wait; try again");
     part.asked.emplace(*id, *request.id);
-    if (simulation_ == nullptr || request.what != "command") return;
-    const std::string name = request.text("name");
-    if (name == "stop" || name == "safe") simulation_->note("gateway stop");
-    if (name == "run") part.runs.insert(*id);
 }
 
 void Hub::serve_desk(ClientId client, Session& session, std::size_t index, base::Instant now) {
@@ -187,8 +183,6 @@ void Hub::serve_desk(ClientId client, Session& session, std::size_t index, base:
         for (auto asked = first; asked != last; ++asked)
             answer_completion(client, asked->second, *completion);
         part.asked.erase(first, last);
-        const bool is_run = part.runs.erase(completion->id) != 0;
-        if (is_run && completion->result == faces::Result::done) simulation_->note("gateway run");
     }
     if (part.upload) go_on_with_upload(client, session, index, now);
     if (part.set_points) go_on_with_set_points(client, part, now);

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,6 @@ struct Rights {
 struct AxisPart {
     std::unique_ptr<faces::CommandDesk::Client> desk{};   ///< from its first command on
     std::multimap<std::uint32_t, std::uint64_t> asked{};  ///< requests by the desk's ids
-    std::set<std::uint32_t> runs{};                       ///< those for a simulation's record, once done
     std::optional<faces::Upload> upload{};
     std::uint32_t upload_id = 0;  ///< of its command in progress
     std::size_t told_bytes = 0;

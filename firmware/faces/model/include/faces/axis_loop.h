@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "base/ring.h"
 #include "faces/axis_model.h"
@@ -18,6 +20,7 @@ struct LoopSettings {
     Control control = Control::any;
     /// Input 0..5 that selects: on is remote, off is local.
     std::optional<std::uint8_t> remote_input{};
+    std::function<void(const Command&)> tell_write{};  ///< see AxisLoop::tell_writes
 };
 
 /// The axis loop's side of the model: takes images between two scans, reads the motor periodically, and
@@ -40,6 +43,9 @@ class AxisLoop {
 
     /// For the operators' ports, from the loop.
     Seat& seat() { return seat_; }
+    /// `tell` is called in poll(), for each command of a face that writes a register of the gateway, when it
+    /// is carried out.
+    void tell_writes(std::function<void(const Command&)> tell) { settings_.tell_write = std::move(tell); }
 
   private:
     using Work = CommandDesk::Work;

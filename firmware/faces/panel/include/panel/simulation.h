@@ -25,7 +25,7 @@ class Simulation {
     virtual void pause(bool on) = 0;
     /// 0.01 to 100.
     virtual void set_speed(double speed) = 0;
-    /// Records a gateway command as an action, without carrying it out.
+    /// Records an action that was carried out over the gateway.
     virtual void note(std::string_view action) = 0;
     /// All recorded actions, as a scenario that repeats them.
     virtual std::string record() const = 0;
