@@ -36,6 +36,31 @@ std::string wrong_unit(std::string_view text, const registers::Register& reg) {
                        reg.name, units);
 }
 
+action::Breakpoints breakpoints(Reader& reader, ConditionParser& conditions) {
+    action::Breakpoints where;
+    if (reader.take("none")) return where;
+    do {
+        where.steps |= std::uint64_t{1} << static_cast<unsigned>(conditions.step_number());
+    } while (reader.take("and"));
+    return where;
+}
+
+action::ForceSignals signal_to_force(ConditionParser& conditions) {
+    const Value signal = conditions.signal("an input or output, such as gateway force IN0 := 1");
+    return {.outputs = signal.kind == Value::Kind::output,
+            .mask = static_cast<std::uint8_t>(1U << signal.index)};
+}
+
+std::vector<action::ForceSignals> signals_to_release(Reader& reader, ConditionParser& conditions) {
+    constexpr std::uint8_t kAll = 0xFF;
+    if (reader.take("all"))
+        return {{.outputs = false, .mask = kAll, .releases = true},
+                {.outputs = true, .mask = kAll, .releases = true}};
+    action::ForceSignals released = signal_to_force(conditions);
+    released.releases = true;
+    return {released};
+}
+
 }  // namespace
 
 Actions ActionParser::actions() {
@@ -207,48 +232,24 @@ void ActionParser::gateway(Actions& list, Time after) {
     for (const auto& [word, what] : kWords) {
         if (reader_.take(word)) return add(list, after, what);
     }
-    if (reader_.take("break")) return breakpoints(list, after);
+    if (reader_.take("break")) return add(list, after, breakpoints(reader_, conditions_));
     if (reader_.take("force")) return force(list, after);
-    if (reader_.take("release")) return release(list, after);
+    if (reader_.take("release")) {
+        for (const auto& released : signals_to_release(reader_, conditions_)) add(list, after, released);
+        return;
+    }
     reader_.fail(
         "gateway stop, gateway safe, gateway run, gateway hold, gateway step, gateway scan, gateway restart, "
         "gateway break, gateway force or gateway release");
 }
 
-void ActionParser::breakpoints(Actions& list, Time after) {
-    action::Breakpoints where;
-    if (!reader_.take("none")) {
-        do {
-            where.steps |= std::uint64_t{1} << static_cast<unsigned>(conditions_.step_number());
-        } while (reader_.take("and"));
-    }
-    add(list, after, where);
-}
-
-action::ForceSignals ActionParser::signal_to_force() {
-    const Value signal = conditions_.signal("an input or output, such as gateway force IN0 := 1");
-    return {.outputs = signal.kind == Value::Kind::output,
-            .mask = static_cast<std::uint8_t>(1U << signal.index)};
-}
-
 void ActionParser::force(Actions& list, Time after) {
-    action::ForceSignals forced = signal_to_force();
+    action::ForceSignals forced = signal_to_force(conditions_);
     action::ForceSignals released = forced;
     released.releases = true;
     reader_.want(":=", ":= and the level, such as gateway force IN0 := 1");
     if (conditions_.level()) forced.levels = forced.mask;
     add_for(list, after, forced, released);
-}
-
-void ActionParser::release(Actions& list, Time after) {
-    constexpr std::uint8_t kAll = 0xFF;
-    if (reader_.take("all")) {
-        add(list, after, action::ForceSignals{.outputs = false, .mask = kAll, .releases = true});
-        return add(list, after, action::ForceSignals{.outputs = true, .mask = kAll, .releases = true});
-    }
-    action::ForceSignals released = signal_to_force();
-    released.releases = true;
-    add(list, after, released);
 }
 
 void ActionParser::seed(Actions& list, Time after) {

@@ -261,10 +261,7 @@ class ActionParser {
     bool above_or_below(std::string_view example);
     int whole(std::string_view what, double least, double most, std::string_view mistake);
     void gateway(Actions& list, Time after);
-    void breakpoints(Actions& list, Time after);
-    action::ForceSignals signal_to_force();
     void force(Actions& list, Time after);
-    void release(Actions& list, Time after);
     void seed(Actions& list, Time after);
     void log(Actions& list, Time after);
 
