@@ -162,7 +162,9 @@ def changed(grammar, text, rng):
     return text[:here.start] + word + " " + text[here.start if rng.random() < 0.5 else after:]
 
 
+# The grammar does not know what a name stands for: a command, a register or an output.
 NO_COMMANDS = {f"there is no '{word}' in this language" for word in NO_NAMES_EXCEPT}
+NO_COMMANDS.add("':=' gives a register a number: it switches nothing")
 
 
 class Trial:

@@ -4,20 +4,10 @@
 
 #include "sim/mode_table.h"
 #include "sim/motor_inputs.h"
+#include "supply_notes.h"
 
 namespace nplc::sim {
 namespace {
-
-namespace midi = registers::midi;
-
-constexpr std::string_view kNoTimeline = "there is no timeline here";
-constexpr std::string_view kHasPower = "it has its supply already";
-constexpr std::string_view kHasNone = "it has no supply (motor power off)";
-
-std::string power_note(bool powered, bool on) {
-    if (powered != on) return {};
-    return std::string(on ? kHasPower : kHasNone);
-}
 
 std::string mode_of(const MacMotor& motor) {
     const ModeFacts* facts = facts_of(motor.mode());
@@ -92,51 +82,6 @@ struct OfMac {
     std::string needs_power() const { return powered ? std::string() : std::string(kHasNone); }
 };
 
-std::string input_note(const MidiModule& module, action::DriveInput input) {
-    constexpr std::uint8_t kHardwareStops = 1;
-    switch (input) {
-        case action::DriveInput::upper_stop:
-        case action::DriveInput::lower_stop:
-            if ((module.memory().stops & kHardwareStops) != 0) return {};
-            return "the stop inputs are not enabled (03h, END_STOPS 1)";
-        case action::DriveInput::reference:
-            if (module.reference_enabled()) return {};
-            return "the reference input is not enabled (07h, REFERENCE 1)";
-        case action::DriveInput::security:
-            return {};
-    }
-    return {};
-}
-
-struct OfModule {
-    const MidiModule& module;
-    bool powered;
-
-    std::string operator()(const action::PowerMotor& power) const { return power_note(powered, power.on); }
-    std::string operator()(const action::FailMotor&) const { return needs_power(); }
-    std::string operator()(const action::BreakEncoder&) const { return needs_power(); }
-    std::string operator()(const action::MotorSupply&) const { return needs_power(); }
-    std::string operator()(const action::MotorTemperature&) const { return needs_power(); }
-    std::string operator()(const action::Log&) const { return std::string(kNoTimeline); }
-    std::string operator()(const action::Cancel&) const {
-        return "it drops what a scenario's rules have planned, and a module here has none";
-    }
-    std::string operator()(const action::SetDriveInput& input) const {
-        if (!powered) return needs_power();
-        return input.active ? input_note(module, input.input) : std::string();
-    }
-    std::string operator()(const action::DriveSwitch& connected) const {
-        return powered ? input_note(module, connected.input) : needs_power();
-    }
-    template <class Other>
-    std::string operator()(const Other&) const {
-        return {};
-    }
-
-  private:
-    std::string needs_power() const { return powered ? std::string() : std::string(kHasNone); }
-};
-
 struct NameOf {
     std::string_view operator()(const action::FailMotor&) const { return "motor error"; }
     std::string_view operator()(const action::PowerMotor& power) const {
@@ -184,10 +129,6 @@ std::string_view name_of(const Action& action) {
 
 std::string without_effect(const MacMotor& motor, bool powered, const Action& action) {
     return std::visit(OfMac{motor, powered}, action.what);
-}
-
-std::string without_effect(const MidiModule& module, bool powered, const Action& action) {
-    return std::visit(OfModule{module, powered}, action.what);
 }
 
 }  // namespace nplc::sim

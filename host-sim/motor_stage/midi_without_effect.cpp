@@ -1,0 +1,58 @@
+#include "sim/without_effect.h"
+#include "supply_notes.h"
+
+namespace nplc::sim {
+namespace {
+
+std::string input_note(const MidiModule& module, action::DriveInput input) {
+    constexpr std::uint8_t kHardwareStops = 1;
+    switch (input) {
+        case action::DriveInput::upper_stop:
+        case action::DriveInput::lower_stop:
+            if ((module.memory().stops & kHardwareStops) != 0) return {};
+            return "the stop inputs are not enabled (03h, END_STOPS 1)";
+        case action::DriveInput::reference:
+            if (module.reference_enabled()) return {};
+            return "the reference input is not enabled (07h, REFERENCE 1)";
+        case action::DriveInput::security:
+            return {};
+    }
+    return {};
+}
+
+struct OfModule {
+    const MidiModule& module;
+    bool powered;
+
+    std::string operator()(const action::PowerMotor& power) const { return power_note(powered, power.on); }
+    std::string operator()(const action::FailMotor&) const { return needs_power(); }
+    std::string operator()(const action::BreakEncoder&) const { return needs_power(); }
+    std::string operator()(const action::MotorSupply&) const { return needs_power(); }
+    std::string operator()(const action::MotorTemperature&) const { return needs_power(); }
+    std::string operator()(const action::Log&) const { return std::string(kNoTimeline); }
+    std::string operator()(const action::Cancel&) const {
+        return "it drops what a scenario's rules have planned, and a module here has none";
+    }
+    std::string operator()(const action::SetDriveInput& input) const {
+        if (!powered) return needs_power();
+        return input.active ? input_note(module, input.input) : std::string();
+    }
+    std::string operator()(const action::DriveSwitch& connected) const {
+        return powered ? input_note(module, connected.input) : needs_power();
+    }
+    template <class Other>
+    std::string operator()(const Other&) const {
+        return {};
+    }
+
+  private:
+    std::string needs_power() const { return powered ? std::string() : std::string(kHasNone); }
+};
+
+}  // namespace
+
+std::string without_effect(const MidiModule& module, bool powered, const Action& action) {
+    return std::visit(OfModule{module, powered}, action.what);
+}
+
+}  // namespace nplc::sim
