@@ -26,7 +26,7 @@ constexpr std::string_view kListMagic = "NPC1\n";
 /// No axis can have this name.
 constexpr const char* kListFile = "/commissioned.txt";
 /// Far more than the names of all axes.
-constexpr std::size_t kLongestList = 16 * 1024;
+constexpr std::size_t kLongestList = std::size_t{16} * 1024;
 constexpr std::size_t kListCheck = 9;  ///< CRC-32 in hexadecimal, end of line
 
 std::span<const std::uint8_t> as_bytes_of(std::string_view text) {
