@@ -176,11 +176,23 @@ bool PropertyParser::parse_whenever() {
 
 /// The second condition is a single one: parentheses behind it belong to the third.
 bool PropertyParser::parse_between() {
-    if (!parse_single_condition() || !in_.expect("AND", "behind BETWEEN's first condition")) return false;
-    if (!parse_single_condition(true) || !parse_condition() || !in_.expect("STAYS", "behind what is to stay"))
+    if (!parse_single_condition() || refuse_joined({"OR", "XOR"}) ||
+        !in_.expect("AND", "behind BETWEEN's first condition"))
+        return false;
+    if (!parse_single_condition(true) || refuse_joined({"OR", "XOR", "AND"}) || !parse_condition() ||
+        !in_.expect("STAYS", "behind what is to stay"))
         return false;
     as(in_.take("OFF") ? Form::stays_off : Form::stays_on);
     return claim_.form == Form::stays_off || in_.expect("ON", "or OFF behind STAYS");
+}
+
+bool PropertyParser::refuse_joined(std::initializer_list<std::string_view> words) {
+    if (std::none_of(words.begin(), words.end(), [&](std::string_view word) { return in_.at(word); }))
+        return false;
+    in_.report().add("E010", in_.token().span,
+                     fmt::format("BETWEEN takes single conditions, and '{}' joins two", in_.token().text),
+                     "put them in parentheses: BETWEEN (a OR b) AND (c OR d) e STAYS ON");
+    return true;
 }
 
 bool PropertyParser::parse_condition_first() {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
+#include <string_view>
 
 #include "language/ast.h"
 #include "language/expression_parser.h"
@@ -31,6 +33,8 @@ class PropertyParser {
     bool parse_never();
     bool parse_whenever();
     bool parse_between();
+    /// One of the words stands here, behind a condition of BETWEEN.
+    bool refuse_joined(std::initializer_list<std::string_view> words);
     bool parse_condition_first();
     bool parse_only();
     bool parse_assumed();
