@@ -207,6 +207,53 @@ TEST(Advice, AStepThatAwaitsTheMoveNeedsNoStop) {
     EXPECT_EQ(told(mover("TIMER := T#1s; NEXT := Hold;", "ENTRY STOP; ", holding)), "");
 }
 
+/// A move that the timer alone ends; `entry` and `leaves`: of its step, `grip`: of the one behind.
+std::string timed(const std::string& entry, const std::string& leaves, const std::string& grip) {
+    return kHead +
+           "VAR_MOTOR There AT P1 := 5 rev; Fast AT V1 := 600 rpm; END_VAR\n"
+           "POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+           "STEP Idle: IF R_TRIG(Start) THEN COUNTER := 9; NEXT := Go; END_IF END_STEP\n"
+           "STEP Go: " +
+           entry + "ENTRY TIMER := T#3s; " + leaves + " END_STEP\nSTEP Grip: " + grip + " END_STEP\n" +
+           fault("ENTRY STOP; ");
+}
+
+TEST(Advice, ATimeIsNoArrival) {
+    const std::string move = "ENTRY POSITION(There); ";
+    const std::string leaves = "IF TIMER.Q THEN NEXT := Grip; END_IF";
+    const std::string clamp = "OUT OUT0; IF NOT Start THEN NEXT := Idle; END_IF";
+    EXPECT_EQ(told(timed(move, leaves, clamp)), "W038");
+    EXPECT_EQ(told(timed(move, "IF TIMER.Q THEN SET OUT0; NEXT := Grip; END_IF",
+                         "IF NOT Start THEN RESET OUT0; NEXT := Idle; END_IF")),
+              "W038 W043");  // the fault step does not reset it
+    EXPECT_EQ(told(timed(move, "IF TIMER.Q THEN COUNT_DOWN; NEXT := Grip; END_IF",
+                         "IF NOT Start AND COUNTER.Q THEN NEXT := Idle; END_IF")),
+              "W038");
+    EXPECT_EQ(told(timed("ALLOW W038 BECAUSE 'a soft stop'; " + move, leaves, clamp)), "");
+}
+
+TEST(Advice, ATimeThatIsNotTakenForAnArrival) {
+    const std::string move = "ENTRY POSITION(There); ";
+    const std::string leaves = "IF TIMER.Q THEN NEXT := Grip; END_IF";
+    const std::string clamp = "OUT OUT0; IF NOT Start THEN NEXT := Idle; END_IF";
+    EXPECT_EQ(told(timed("ENTRY VELOCITY(Fast); ", "IF TIMER.Q THEN STOP; NEXT := Grip; END_IF", clamp)),
+              "W033")
+        << "a run, without There";
+    EXPECT_EQ(told(timed(move, leaves,
+                         "OUT OUT0; IF INPOS WITHIN 3 s THEN NEXT := Idle; ELSE NEXT := Fault; "
+                         "END_IF")),
+              "")
+        << "the next step asks";
+    EXPECT_EQ(told(timed(move, "IF TIMER.Q AND Ack THEN NEXT := Grip; END_IF", clamp)), "") << "a sensor";
+    EXPECT_EQ(told(timed(move, "IF Ack THEN NEXT := Grip; ELSIF TIMER.Q THEN NEXT := Fault; END_IF", clamp)),
+              "")
+        << "a sensor with a limit";
+    EXPECT_EQ(told(timed(move, leaves, "IF NOT Start THEN NEXT := Idle; END_IF")), "") << "nothing acts";
+    EXPECT_EQ(told(timed("OUT OUT0; " + move, leaves, clamp)), "") << "it was on before";
+    EXPECT_EQ(told(timed(move, "IF TIMER.Q THEN INIT(Fast); NEXT := Grip; END_IF", clamp)), "")
+        << "it pressed";
+}
+
 /// Runs while Start is on; `leaves`: what ends that.
 std::string conveyor(const std::string& leaves, const std::string& steps = {}) {
     return kHead +
