@@ -5,6 +5,7 @@ usage: stories_test.py SEQC NANOPLC_SIM FOLDER_OF_STORIES
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -84,6 +85,33 @@ class Story(Case):
         self.assertIn("Kind := BY_COMMAND = HOME1_MODE; Window := 24 ", story)
         self.assertIn("CNTRL_BITS := INPSIGN + HICLK; MODE_REG := V_MODE", story)
         self.assertIn("Kind := 7", story)  # is no kind of homing
+
+    def test_where_a_time_begins(self):
+        for of, name, ms in (("gate.seq", "E_Stop", 200), ("camera.seq", "E_Stop", 200), ("elevator.seq", "Travel_Ends", 9000)):
+            for assume in ("driver", "any"):
+                story = self.verify(of, "--assume", assume)
+                if f"here {name} breaks" not in story:
+                    continue
+                (begin,) = re.findall(rf"^ +(\d+)  here the {ms} ms of {name} begin: in scan (\d+)$", story, re.MULTILINE)
+                (end,) = re.findall(rf"^ +(\d+)  here {name} breaks: .*scan (\d+)$", story, re.MULTILINE)
+                self.assertGreaterEqual(int(end[0]) - int(begin[0]), ms)
+                self.assertLessEqual(int(begin[1]), int(end[1]))
+
+    def test_it_begins_in_the_scan_in_which_the_condition_comes(self):
+        # Go is on from the scan that leads to Work on; Late is looked for 20 ms later.
+        self.write("late.seq", "PROGRAM Late\nMOTOR MAC140;\nVAR_INPUT Go AT IN0 : BOOL; END_VAR\nVAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n"
+                   "STEP Idle: OWN ERROR; ENTRY TIMER := T#30ms; IF Go THEN NEXT := Work; END_IF END_STEP\n"
+                   "STEP Work: OWN ERROR; OUT Lamp; ENTRY TIMER := T#50ms; IF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n"
+                   "PROPERTY Short: WHENEVER STEP = Work THEN NOT Lamp WITHIN 20 ms;\n"
+                   "PROPERTY Dark: WHENEVER Lamp FOR 20 ms THEN STEP = Idle;\nPROPERTY Off: NEVER Lamp;\nEND_PROGRAM\n")
+        for assume in ("driver", "any"):
+            for result in json.loads(self.verify("late.seq", "--assume", assume, "--json"))["results"]:
+                if result["name"] not in ("Short", "Dark", "Off"):
+                    continue
+                scans = result["course"]
+                begun = [i for i, scan in enumerate(scans) if scan.get("time_begins")]
+                first = [scan["step"] for scan in scans].index("Work")
+                self.assertEqual(begun, [] if result["name"] == "Off" else [first])
 
     def test_a_helper_step_is_named_with_what_to_write(self):
         self.assertIn("  Wait_to_Move is a helper step that the compiler made for a branch; it does not ask again: "

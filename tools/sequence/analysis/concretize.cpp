@@ -281,16 +281,19 @@ Conflict conflict_of(const std::vector<Times::Bound>& round, std::span<const Cou
 }
 
 /// Repeats idle scans where time passes, so that no two are further apart than the gateway's.
-Course lay_out(std::span<const CourseScan> scans, const Images& images, const Times& times, bool paced) {
+Course lay_out(std::span<const CourseScan> scans, const Images& images, const Times& times, bool paced,
+               const std::optional<Overdue>& overdue) {
     Course course;
     for (std::size_t k = 0; k < scans.size(); ++k) {
         PlayedScan scan;
         scan.image = images[k];
+        scan.begins = overdue && overdue->from == k;
         std::int64_t rest = times[k + 1] - times[k];
         while (paced && scans[k].idle && rest > Machine::kMostIdle) {
             scan.dt_ms = rest % Machine::kMostIdle != 0 ? 1 : Machine::kMostIdle;
             course.push_back(scan);
             scan.repeats = true;
+            scan.begins = false;
             rest -= scan.dt_ms;
         }
         scan.dt_ms = static_cast<std::uint32_t>(rest);
@@ -344,7 +347,7 @@ Attempt concretize(const Realization& how, std::span<const CourseScan> scans,
             times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1,
                            {Cause::Kind::overdue, overdue->from, scans.size() - 1});
         if (times.solve()) {
-            Course course = lay_out(scans, images, times, driver);
+            Course course = lay_out(scans, images, times, driver, overdue);
             if (play(how.table, scans, course)) return {.course = std::move(course), .conflict = {}};
             return {.course = {},
                     .conflict = {

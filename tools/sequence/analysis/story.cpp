@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -61,15 +62,21 @@ class Columns {
         for (std::size_t i = 0; i < kCount; ++i) widths_[i] = std::max(widths_[i], row[i].size());
         rows_.push_back(std::move(row));
     }
+    /// Below the row before: a time, and a line that is no part of the columns.
+    void add_line(std::uint64_t time, const std::string& line) {
+        lines_.emplace(rows_.size(), fmt::format("  {:>7}  {}\n", time, line));
+    }
 
     std::string text() const {
         std::string text;
-        for (const Row& row : rows_) {
+        for (std::size_t number = 0; number < rows_.size(); ++number) {
+            const Row& row = rows_[number];
             std::string line;
             for (std::size_t i = 0; i < kCount; ++i)
                 line += is_number(i) ? fmt::format("  {:>{}}", row[i], widths_[i])
                                      : fmt::format("  {:<{}}", row[i], widths_[i]);
             text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+            if (const auto found = lines_.find(number + 1); found != lines_.end()) text += found->second;
         }
         return text;
     }
@@ -79,6 +86,7 @@ class Columns {
 
     std::array<std::size_t, kCount> widths_{7};
     std::vector<Row> rows_;
+    std::map<std::size_t, std::string> lines_;  ///< by the number of rows before
 };
 
 void add_scan(Columns& columns, std::uint64_t time, const PlayedScan& scan, const Names& names) {
@@ -168,8 +176,13 @@ std::string story_of(const Result& result, const Names& names) {
     Columns columns;
     columns.add({"ms", "on", "step", "outputs", "timer", "counter", "orders"});
     std::uint64_t time = 0;
+    std::size_t number = 0;
     for (const PlayedScan& scan : course) {
+        ++number;
         if (!scan.repeats) add_scan(columns, time, scan, names);
+        if (scan.begins)
+            columns.add_line(time, fmt::format("here the {} ms of {} begin: in scan {}", result.time_ms,
+                                               result.name, number));
         time += scan.dt_ms;
     }
     return columns.text() + end_text(result) + helpers_text(course, names);

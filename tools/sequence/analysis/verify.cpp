@@ -71,6 +71,7 @@ const char* reason_of(const Property& property) {
 
 /// Under `any` the next scan may come after any time: a deadline is missed as soon as it begins.
 void make_late(Course& course, std::uint32_t within_ms) {
+    course.back().begins = true;
     course.back().dt_ms = within_ms + 1;
 }
 
@@ -84,7 +85,7 @@ void keep(Result& result, std::optional<Played> played) {
 }
 
 Result judged(Decider& decider, const Property& property, std::size_t target, Assume assume) {
-    Result result{.name = property.name, .text = property.text};
+    Result result{.name = property.name, .text = property.text, .time_ms = property.within_ms};
     const bool late = property.form == Form::whenever;
     const bool possible = property.form == Form::always_possible || property.form == Form::after_possible;
     const bool timed = property.form == Form::never_while || (late && assume == Assume::driver);

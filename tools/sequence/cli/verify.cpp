@@ -86,6 +86,7 @@ Json course_object(const verify::Course& course, const verify::Names& names) {
         added["inpos"] = (scan.image & sequencer::kInPos) != 0 ? 1 : 0;
         added["error"] = (scan.image & sequencer::kError) != 0 ? 1 : 0;
         added["dt_ms"] = scan.dt_ms;
+        if (scan.begins) added["time_begins"] = true;
         added["step"] = verify::step_name(names, scan.after.step);
         added["outputs"] = scan.after.outputs;
         added["timer"] = scan.after.timer;

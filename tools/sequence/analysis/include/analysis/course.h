@@ -13,6 +13,7 @@ struct PlayedScan {
     std::uint32_t dt_ms = 0;  ///< to the next scan
     std::uint8_t step = 0;    ///< in which it began
     bool repeats = false;     ///< a repetition of the one before, while time passes
+    bool begins = false;      ///< the time of the property that the course breaks begins with it
     sequencer::State after;   ///< before any time is taken off the timer
     std::vector<sequencer::MotorOrder> orders;
 };

@@ -35,6 +35,7 @@ struct Result {
     bool vacuous = false;        ///< proved vacuously: its condition never occurs
     bool only_by_error = false;  ///< proved possible, but somewhere only by ways on which an ERROR begins
     std::string allowed{};       ///< for a finding of a check that was switched off in its step: the reason
+    std::uint32_t time_ms = 0;   ///< WITHIN or FOR, which the course's scan that `begins` begins
     bool is_late = false;        ///< the course ends some time after its last scan, at a deadline
     std::optional<Course> course{};       ///< the shortest counterexample, or course to what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
