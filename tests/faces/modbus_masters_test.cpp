@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 using gateway::SetPointBench;
 using Words = std::vector<unsigned>;
 
+constexpr std::uint8_t kReadHoldings = 3;
 constexpr std::uint8_t kReadInputs = 4;
 constexpr std::uint8_t kWriteCoil = 5;
 constexpr std::uint8_t kWriteWords = 16;
@@ -333,6 +334,36 @@ TEST_F(SlowStorage, AStopWithoutANumberLeavesThatOfTheChange) {
     EXPECT_FALSE(plant.runs());
     EXPECT_EQ(plant.ended(plc), (Words{1, 0}));
     EXPECT_EQ(result_of(2), 0U);
+}
+
+/// A value of two words is read whole or not at all: half of each would be of different moments.
+TEST(ModbusHalves, AreRefusedInEachWordOrder) {
+    constexpr std::uint8_t kTimer = 18;
+    constexpr std::uint8_t kBefore = kTimer - 1;
+    for (const bool low_first : {false, true}) {
+        Plant plant;
+        plant.settings.low_word_first = low_first;
+        Master plc{plant.units, "Modbus 10.0.0.1", plant.bell};
+        const auto read = [&](std::uint8_t function, unsigned address, std::uint8_t count) {
+            const auto answer = plant.ask(plc, {function, static_cast<std::uint8_t>(address >> 8),
+                                                static_cast<std::uint8_t>(address), 0, count});
+            const auto bytes = answer ? answer->bytes() : std::span<const std::uint8_t>{};
+            return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+        };
+        const std::vector<std::uint8_t> no_address{kReadInputs | 0x80U, 2};
+        EXPECT_EQ(read(kReadInputs, kTimer, 1), no_address) << "the first half";
+        EXPECT_EQ(read(kReadInputs, kTimer + 1, 1), no_address) << "the second half";
+        EXPECT_EQ(read(kReadInputs, kBefore, 2), no_address) << "ends between them";
+        EXPECT_EQ(read(kReadInputs, kTimer + 1, 2), no_address) << "begins between them";
+        EXPECT_EQ(read(kReadInputs, kSetPointValues + 1, 2), no_address) << "halves of two set-points";
+        EXPECT_EQ(read(kReadInputs, kTimer, 2).size(), 6U) << "whole";
+        EXPECT_EQ(read(kReadInputs, kBefore, 3).size(), 8U) << "whole, with the one before it";
+        EXPECT_EQ(read(kReadInputs, kSetPointValues, 2).size(), 6U) << "a set-point";
+        const std::vector<std::uint8_t> no_holding{kReadHoldings | 0x80U, 2};
+        EXPECT_EQ(read(kReadHoldings, kSetPointsNew, 1), no_holding);
+        EXPECT_EQ(read(kReadHoldings, kSetPointsNew + 1, 1), no_holding);
+        EXPECT_EQ(read(kReadHoldings, kSetPointsNew, 2).size(), 6U);
+    }
 }
 
 TEST(ModbusStops, AreKnownInEveryForm) {
