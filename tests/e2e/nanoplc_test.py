@@ -216,6 +216,21 @@ class Ports(ServiceCase):
         self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
 
 
+class Faces(ServiceCase):
+    def test_a_panel_that_cannot_listen_says_what_to_do(self):
+        """192.0.2.0/24 is for documents (RFC 5737)."""
+        secret = self.put("secret", "secret0123456789secret\n")
+        os.chmod(secret, 0o600)
+        with socket.create_server(("127.0.0.1", 0)) as other:
+            taken = f"127.0.0.1:{other.getsockname()[1]}"
+            for place, said in ((taken, "another program listens there, and `ss -ltnp` as root names it; end it, or write another port"),
+                                ("192.0.2.7:8080", "this machine has no such address now; write one that `ip -br address` lists")):
+                config = self.write(self.axis(), service=f'[panel]\nlisten = "{place}"\npassword_file = "{secret}"\ntoken_file = "{secret}"\n')
+                service = self.start(config)
+                self.assertRegex(service.said(), f"no panel: cannot listen at {place.replace(':', ' port ')}: .*; {said}")
+                self.assertEqual(self.end(service), 0)
+
+
 class Refusing(ServiceCase):
     def test_every_mistake_is_named_at_once(self):
         code, lines = self.check("""[service]

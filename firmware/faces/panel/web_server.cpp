@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "hal_linux/tcp_listener.h"
 #include "origin.h"
 
 namespace nplc::panel {
@@ -303,8 +304,8 @@ std::string Server::listen() {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error)
-        return fmt::format("cannot listen at {} port {}: {}", options_.address, options_.port,
-                           error.message());
+        return fmt::format("cannot listen at {} port {}: {}; {}", options_.address, options_.port,
+                           error.message(), hal_linux::listen_remedy(error.value()));
     port_ = acceptor_.local_endpoint(error).port();
     if (!address.is_unspecified())
         options_.hosts.push_back(address.is_v6() ? "[" + address.to_string() + "]" : address.to_string());
