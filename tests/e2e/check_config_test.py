@@ -20,7 +20,7 @@ listen = "tcp:{address}:{port}"
 [metrics]
 listen = "127.0.0.1:9464"
 [mqtt]
-broker = "192.168.10.2:1883"
+broker = "{broker}"
 node = "n"
 {mqtt}
 """
@@ -32,8 +32,8 @@ port = "{port}"
 
 
 class CheckConfig(FolderCase):
-    def check(self, *arguments, address="127.0.0.1", port=1502, mqtt=""):
-        text = f'[service]\nstate_directory = "{self.path("state")}"\n' + FACES.format(address=address, port=port, mqtt=mqtt)
+    def check(self, *arguments, address="127.0.0.1", port=1502, mqtt="", broker="192.168.10.2:1883"):
+        text = f'[service]\nstate_directory = "{self.path("state")}"\n' + FACES.format(address=address, port=port, mqtt=mqtt, broker=broker)
         file = self.put("nanoplc.toml", text + AXIS.format(port=self.path("no_such_port")))
         result = subprocess.run([NANOPLC, "check-config", *arguments, file], capture_output=True, text=True, check=False)
         return result.returncode, result.stdout, result.stderr
@@ -63,6 +63,20 @@ class CheckConfig(FolderCase):
         self.assertEqual(code, 3)
         self.assertIn("6: modbus.listen: tcp:192.0.2.7:1502: this machine has no such address", complaint)
         self.assertIn("Modbus TCP listens at tcp:192.0.2.7:1502", said)
+
+    def test_what_the_packages_service_must_be_given_is_told(self):
+        """The package's systemd unit has IPAddressDeny=any and IPAddressAllow=localhost."""
+        out, let_in = "the package's service reaches {} only after `systemctl edit nanoplc`", "the package's service lets another machine in"
+        said = self.check("--no-devices")[1]
+        self.assertIn(f"{out.format('192.168.10.2')} with [Service], IPAddressAllow=192.168.10.2 and a restart\n", said)
+        self.assertNotIn(let_in, said)
+        for broker, told in (("abc.de:1883", "IPAddressAllow=ADDRESS (the broker's, and the name server's"), ("[fd00::2]:1883", "IPAddressAllow=fd00::2 ")):
+            said = self.check("--no-devices", broker=broker)[1]
+            self.assertIn(told, said)
+        for broker in ("127.0.0.1:1883", "[::1]:1883", "localhost:1883"):
+            self.assertNotIn("the package's service", self.check("--no-devices", broker=broker)[1], broker)
+        for address in ("0.0.0.0", "[::]", "192.168.10.3"):
+            self.assertIn(let_in, self.check("--no-devices", address=address)[1], address)
 
     def test_a_user_without_password_is_warned_of(self):
         complaint = self.check("--no-devices", mqtt='user = "cell4"')[2]

@@ -109,6 +109,7 @@ void print_what_is_there(const Options& options, const Config& config,
     print(options.file, warnings);
     for (const std::string& note : notes) fmt::print("{}\n", note);
     for (const std::string& line : faces_in_words(config)) fmt::print("{}\n", line);
+    for (const std::string& line : closed_doors(config)) fmt::print("{}\n", line);
     std::fflush(stdout);
 }
 

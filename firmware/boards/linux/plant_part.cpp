@@ -1,14 +1,17 @@
 #include "plant_part.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <utility>
 
 #include "faces/program_version.h"
 #include "hal_linux/tcp_listener.h"
 #include "mqtt/client.h"
+#include "panel/web_server.h"
 
 namespace nplc::boards {
 namespace {
@@ -52,6 +55,19 @@ std::optional<Mistake> moving_units(const Config& config) {
                     names.size() == 1 ? "it" : "them")};
 }
 
+bool is_number(const std::string& host) {
+    in6_addr address{};
+    return ::inet_pton(AF_INET, host.c_str(), &address) == 1 ||
+           ::inet_pton(AF_INET6, host.c_str(), &address) == 1;
+}
+
+/// "tcp:[::]:502" and "[::]:502": "::"
+std::string host_in(std::string place) {
+    if (place.starts_with("tcp:")) place.erase(0, 4);
+    std::string host = place.substr(0, place.rfind(':'));
+    return host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
+}
+
 }  // namespace
 
 std::vector<Mistake> plant_warnings(const Config& config) {
@@ -71,6 +87,27 @@ std::vector<Mistake> port_warnings(const Config& config) {
             {place.line, place.key, fmt::format("port {}: {}", port, hal_linux::listen_remedy(EACCES))});
     }
     return warnings;
+}
+
+std::vector<std::string> closed_doors(const Config& config) {
+    std::vector<std::string> lines;
+    const std::string& broker = config.mqtt.options.host;
+    if (config.mqtt.broker.is_there() && !panel::is_loopback(broker))
+        lines.push_back(fmt::format(
+            "the package's service reaches {} only after `systemctl edit nanoplc` with [Service], "
+            "IPAddressAllow={} and a restart",
+            broker,
+            is_number(broker) ? broker
+                              : "ADDRESS (the broker's, and the name server's if that is another machine)"));
+    const auto places = config.tcp_places();
+    const bool is_open = std::any_of(places.begin(), places.end(), [](const LocatedText& place) {
+        return !panel::is_loopback(host_in(place.text));
+    });
+    if (is_open)
+        lines.emplace_back(
+            "the package's service lets another machine in only after `systemctl edit nanoplc` with "
+            "[Service], IPAddressAllow=ADDRESS (that machine's) and a restart");
+    return lines;
 }
 
 std::vector<std::string> faces_in_words(const Config& config) {

@@ -15,6 +15,9 @@ namespace nplc::boards {
 /// The configured faces for `check-config`, one line each; empty: none.
 std::vector<std::string> faces_in_words(const Config& config);
 
+/// For `check-config`: the addresses of the plant that the package's service must be given first.
+std::vector<std::string> closed_doors(const Config& config);
+
 /// For `check-config` and the journal at the start: what works, but not as most want it.
 std::vector<Mistake> plant_warnings(const Config& config);
 
