@@ -4,9 +4,13 @@
 usage: nanoplc_store_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq
 """
 
+import base64
+import json
 import os
+import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import unittest
@@ -14,6 +18,7 @@ import zlib
 
 import modbus_test
 import service_case
+from panel_client import Panel
 from stored_case import SETTINGS, TABLES, SmallDisk, Stored
 
 STORAGE_FAILED = 15  # a result
@@ -252,8 +257,9 @@ class FullDisk(SmallDisk):
         for number in range(1, 21):  # whatever room its own file still has
             changes = master.long(206)
             self.assertFalse(master.write(0, 34, number, 0, 0, 0, 0, 0, 1000 + number).isError())
-            done, result = master.words(41, 2)
-            self.assertEqual((done, master.status(1)), (number, True))
+            self.until(lambda number=number: master.words(41) == [number])  # on a busy machine after the answer
+            self.assertTrue(master.status(1))
+            result, = master.words(42)
             self.assertIn(result, (0, STORAGE_FAILED))
             self.assertEqual(master.long(206), changes + (result == 0), "what was not kept is not wanted")
         self.assertFalse(master.coil(1).isError())
@@ -262,6 +268,45 @@ class FullDisk(SmallDisk):
         os.remove(self.state + "/fill")
         self.assertEqual(master.order(34, 30) if not master.write(6, 0, 900).isError() else None, 0)
         self.assertEqual(master.long(210), 900)
+        self.assertEqual(self.end(service), 0, service.said())
+
+    def test_an_upload_of_the_panel_is_refused_as_long_as_its_names_have_no_room(self):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        service = self.start_inside(self.write(self.axis(), service=f'[panel]\nlisten = "127.0.0.1:{port}"\n'))
+        self.until(lambda: "token: " in service.said(), service)
+        panel = Panel(port)
+        self.addCleanup(panel.close)
+        self.assertEqual(panel.ask("login", secret=re.search(r"token: (\S+)", service.said())[1])["result"], "done")
+        tables = {}
+        for places in (1024, 2048):
+            with open(service_case.MENDING, encoding="utf-8") as file:
+                source = self.put(f"{places}.seq", file.read().replace("2048", str(places)))
+            subprocess.run([service_case.SEQC, "build", source, "-o", self.path(f"{places}.bin")], check=True, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+            with open(self.path(f"{places}.bin"), "rb") as table, open(self.path(f"{places}.sym"), encoding="utf-8") as names:
+                tables[places] = {"table": base64.b64encode(table.read()).decode(), "activate": True}, json.load(names)
+
+        def upload(places, with_names=True):
+            table, names = tables[places]
+            return panel.ask("upload", **table, **({"symbols": names} if with_names else {}))
+
+        def kept():
+            with open(self.state + "/x/names.sym", encoding="utf-8") as file:
+                return json.load(file)["table"]["crc32"], self.ctl("status")["table_crc32"]
+
+        self.assertEqual(upload(1024)["result"], "done")
+        before = kept()
+        self.fill()
+        answer = upload(2048)
+        self.assertEqual(answer["result"], "refused")
+        self.assertRegex(answer["text"], "^the names cannot be kept: .*/x/names.sym.new: No space left on device; nothing was stored; make room ")
+        self.assertEqual(kept(), before)
+        self.assertEqual(sorted(os.listdir(self.state + "/x")), ["names.sym", "running", "store.bin"])
+        self.assertEqual(upload(2048, with_names=False)["result"], "done", "the store has its room")
+        os.remove(self.state + "/fill")
+        self.assertEqual(upload(1024)["result"], "done")
+        self.assertEqual(kept(), before)
         self.assertEqual(self.end(service), 0, service.said())
 
     def test_an_orderly_end_is_known(self):

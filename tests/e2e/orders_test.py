@@ -4,6 +4,7 @@
 usage: orders_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING NANOFLEET [TEST ...]
 """
 
+import hashlib
 import json
 import os
 import random
@@ -17,6 +18,7 @@ import unittest
 import fleet_case
 import service_case
 from fleet_case import nanofleet
+from stored_case import SmallDisk
 
 RESTART = 'activate = "restart"\n'
 
@@ -236,6 +238,24 @@ class Refused(fleet_case.FleetCase):
         self.moves()
         self.assertEqual(self.what_runs(), self.first)
         os.rmdir(self.path("state/x/orders"))
+        self.plant.wait_state(self.TARGET, "confirmed", 1)
+        self.assertEqual(self.what_runs(), wanted)
+
+
+class OnAFullDisk(SmallDisk, fleet_case.FleetCase):
+    def test_an_order_waits_for_room_and_says_so_once(self):
+        service = self.start_inside(self.configure(RESTART))
+        with open(self.table, "rb") as file:
+            first = hashlib.sha256(file.read()).hexdigest()
+        self.plant.wait(self.TARGET, lambda report: report["table"]["sha256"] == first)
+        table, wanted = self.build("two", 1024)
+        self.fill()
+        self.order(table, 1)
+        self.plant.wait(self.TARGET, lambda report: "No space left on device" in (report["order"]["text"] or report["refused"]["last"] or ""))
+        self.moves()
+        self.assertEqual(self.what_runs(), first)
+        self.assertEqual(service.said().count("No space left on device"), 1, service.said())
+        os.remove(self.state + "/fill")
         self.plant.wait_state(self.TARGET, "confirmed", 1)
         self.assertEqual(self.what_runs(), wanted)
 

@@ -4,18 +4,15 @@
 usage: why_test.py NANOPLC_SIM NANOCTL MACREG SHUTTLE [TEST ...]
 """
 
-import base64
 import json
-import os
 import re
-import socket
 import struct
 import subprocess
 import sys
-import time
 import unittest
 import urllib.request
 
+from panel_client import Panel
 from patience import until
 from program_case import ProgramCase
 from sparkplug_host import Broker, Host
@@ -31,42 +28,6 @@ WHY = 900  # input registers: the number, its severity, 98 words of text
 HEAT, BLOCKED = (54, "error_i2t_err"), (101, "blocked")
 # Both stops where the shaft stands.
 HELD = "motor stop above -9999 rev, motor stop below 9999 rev\nat 100 ms IN0 := 1\n"
-
-
-class Panel:
-    """A client of the page's protocol that only looks: texts of a WebSocket, unmasked, as servers send them."""
-
-    def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=LONG)
-        key = base64.b64encode(os.urandom(16)).decode()
-        self.socket.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
-        self.file = self.socket.makefile("rb")
-        assert b" 101 " in self.file.readline()
-        while self.file.readline() != b"\r\n":
-            pass
-
-    def close(self):
-        self.file.close()
-        self.socket.close()
-
-    def message(self):
-        kind, size = self.file.read(2)
-        if size == 126:
-            size, = struct.unpack(">H", self.file.read(2))
-        elif size == 127:
-            size, = struct.unpack(">Q", self.file.read(8))
-        data = self.file.read(size)
-        return json.loads(data) if kind == 0x81 else {}
-
-    def first_cause(self, wanted):
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            message = self.message()
-            causes = message.get("causes") if message.get("t") == "why" else None
-            if causes and causes[0]["code"] == wanted:
-                return (causes[0]["number"], causes[0]["code"]), causes[0]["text"]
-        raise AssertionError(wanted)
 
 
 class WhyNothingMoves(ProgramCase):
@@ -123,7 +84,8 @@ class WhyNothingMoves(ProgramCase):
     def check(self, scenario, wanted):
         self.start(scenario)
         number, name = wanted
-        told, sentence = self.panel.first_cause(name)
+        cause = self.panel.first(lambda message: message.get("t") == "why" and message["causes"] and message["causes"][0]["code"] == name)["causes"][0]
+        told, sentence = (cause["number"], cause["code"]), cause["text"]
         self.assertEqual(told, wanted)
         text = self.of_modbus(number)
         self.assertEqual(text, sentence[:len(text)])

@@ -51,15 +51,25 @@ std::string StoredNames::keep(std::size_t axis, std::uint32_t crc, std::string_v
     if (!panel::is_for_table(text, crc)) return "the names are those of another table";
     const std::string path = kept_file(axis);
     const std::string fresh = path + ".new";
+    std::string why;
     {
+        errno = 0;
         std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
         file << text;
         file.flush();
-        if (!file) return fmt::format("the names cannot be kept: {}: {}", fresh, std::strerror(errno));
+        if (!file) why = std::strerror(errno);
     }
     std::error_code error;
+    if (!why.empty()) {
+        fs::remove(fresh, error);
+        return fmt::format(
+            "the names cannot be kept: {}: {}; nothing was stored; make room there, or upload the table "
+            "alone",
+            fresh, why);
+    }
     fs::rename(fresh, path, error);
-    return error ? fmt::format("the names cannot be kept: {}: {}", path, error.message()) : std::string();
+    return error ? fmt::format("the names cannot be kept: {}: {}; nothing was stored", path, error.message())
+                 : std::string();
 }
 
 bool PanelPart::read_secret(const LocatedText& file, std::string& secret) {
