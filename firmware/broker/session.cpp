@@ -3,13 +3,22 @@
 #include <fmt/format.h>
 #include <mosquitto.h>
 #include <nss.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 namespace nplc::broker {
+
+namespace {
+
+std::string error_in_files(const Options& options) {
+    std::vector<Mistake> mistakes = mistakes_in_files(options);
+    return mistakes.empty() ? std::string() : std::move(mistakes.front().text);
+}
+
+}  // namespace
 
 const bool kIsBuiltIn = true;
 
@@ -28,11 +37,7 @@ Session new_session(const std::string& name, void* self) {
 }
 
 Secrets read_secrets(const Options& options) {
-    for (const std::string& file : {options.ca_file, options.certificate_file, options.key_file}) {
-        if (!file.empty() && ::access(file.c_str(), R_OK) != 0)
-            return {.error = fmt::format("{}: {}; it must be a file that this program may read", file,
-                                         std::strerror(errno))};
-    }
+    if (std::string error = error_in_files(options); !error.empty()) return {.error = std::move(error)};
     Secrets secrets;
     if (options.password_file.empty()) return secrets;
     std::ifstream file(options.password_file);
@@ -48,6 +53,8 @@ Secrets read_secrets(const Options& options) {
 
 std::string set_secrets(mosquitto* session, const Options& options, const std::string& password) {
     const auto or_null = [](const std::string& text) { return text.empty() ? nullptr : text.c_str(); };
+    // They may have been exchanged since.
+    if (std::string error = error_in_files(options); !error.empty()) return error;
     int code = MOSQ_ERR_SUCCESS;
     if (!options.user.empty())
         code = ::mosquitto_username_pw_set(session, options.user.c_str(), or_null(password));

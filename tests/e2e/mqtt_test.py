@@ -351,17 +351,86 @@ class Served(service_case.ServiceCase, Case):
         self.assertIn("certificate verify failed", service.said())
         self.moves()
 
-    def test_a_broker_of_another_name_or_time_is_none(self):
+    def refused(self, said, secret, **broker):
+        """The one message of a connection that TLS does not let come about."""
+        if broker:
+            self.begin_broker(**broker)
+        service = self.begin(secret, wait_for="MQTT: no connection")
+        self.assertIn(f"MQTT: no connection to 127.0.0.1:{self.broker.port}: {said}", service.said())
+        self.assertNotIn("MQTT: connected", service.said())
+        self.moves()
+        self.assertEqual(self.end(service), 0)
+        self.pull_out()
+
+    def test_a_brokers_certificate_that_is_refused_is_said_with_the_reason(self):
         settings = certificates.make(self.folder.name)
-        for name in ("stranger", "expired"):
-            self.begin_broker(settings=settings.replace("broker.pem", f"{name}.pem"))
-            service = self.begin(self.secret("right"), wait_for="MQTT: no connection")
-            self.assertRegex(service.said(), "certificate|host name")
-            self.assertNotIn("MQTT: connected", service.said())
-            self.moves()
-            self.assertEqual(self.end(service), 0)
-            self.pull_out()
+        secret = self.secret("right")
+        for name, said in (("stranger", "the broker's certificate is of another name; its subjectAltName must have `broker`"),
+                           ("expired", "the broker's certificate, or its CA's, has expired; renew it, or set this machine's clock"),
+                           ("selfmade", "the broker's certificate has signed itself, and is not the one in ca_file; name it there")):
+            self.refused(said, secret, settings=settings.replace("broker.pem", f"{name}.pem"))
             self.broker.stop()
+        self.refused("the CA in ca_file has not signed the broker's certificate; name the file of the CA that has",
+                     secret.replace("ca.pem", "other.pem"), settings=settings)
+        self.broker.stop()
+        self.refused("the broker ends the connection in the place of TLS; name its port for TLS, or leave ca_file out if it has none", secret,
+                     settings="allow_anonymous true\n")
+
+    def test_a_certificate_of_ours_that_is_refused_is_said_with_the_reason(self):
+        self.begin_broker(settings=certificates.make(self.folder.name) + "require_certificate true\n")
+        secret = self.secret("right")
+        ours = f'{secret}key_file = "{self.path("mine.key")}"\ncertificate_file = "{self.path("NAME.pem")}"\n'
+        self.refused("the broker wants a certificate of its clients; name certificate_file and key_file", secret)
+        self.refused("the broker refuses certificate_file; name one that the broker's own CA has signed", ours.replace("NAME", "foreign"))
+        self.refused("the broker refuses certificate_file, which has expired; renew it, or set the broker's clock", ours.replace("NAME", "old"))
+        service = self.begin(ours.replace("NAME", "mine"), wait_for="MQTT: connected")
+        self.assertNotIn("no connection", service.said())
+
+    def test_files_of_tls_that_hold_something_else_are_refused_before(self):
+        certificates.make(self.folder.name)
+        self.plug_in()
+
+        def openssl(*arguments):
+            subprocess.run(["openssl", *arguments], check=True, capture_output=True, cwd=self.folder.name)
+
+        openssl("x509", "-in", "ca.pem", "-outform", "DER", "-out", "ca.der")
+        openssl("pkey", "-in", "mine.key", "-aes256", "-passout", "pass:secret", "-out", "locked.key")
+        openssl("genrsa", "-out", "rsa.key", "1024")
+        os.mkdir(self.path("folder"))
+        names = {"ca_file": "ca.pem", "certificate_file": "mine.pem", "key_file": "mine.key"}
+
+        def check(**wrong):
+            files = "".join(f'{key} = "{self.path(name)}"\n' for key, name in {**names, **wrong}.items())
+            return self.check(f'[mqtt]\nbroker = "cell4:8883"\nnode = "n"\n{files}{self.axis()}')
+
+        self.assertEqual(check(), (0, []))
+        for key, name, said in (
+                ("ca_file", "ca.der", "holds no certificate in PEM form (-----BEGIN CERTIFICATE-----); `openssl x509 -inform DER -in "),
+                ("ca_file", "mine.key", "holds no certificate in PEM form"),
+                ("certificate_file", "mine.key", "holds no certificate in PEM form"),
+                ("key_file", "mine.pem", "holds no key in PEM form without a password (-----BEGIN PRIVATE KEY-----); `openssl pkey -in "),
+                ("key_file", "locked.key", "holds no key in PEM form without a password"),
+                ("key_file", "broker.key", "is the key of another certificate; name the one that certificate_file was made with"),
+                ("key_file", "rsa.key", "is the key of another certificate")):
+            code, lines = check(**{key: name})
+            line = 4 + list(names).index(key)
+            self.assertEqual((code, len(lines)), (3, 1), lines)
+            self.assertIn(f"{line}: mqtt.{key}: {self.path(name)}: {said}", lines[0])
+        for key in names:
+            for name in ("folder", "nothing"):
+                code, lines = check(**{key: name})
+                self.assertEqual((code, len(lines)), (3, 1), lines)
+                self.assertIn(f"mqtt.{key}: there is no file {self.path(name)}; put it there, or name another", lines[0])
+
+    def test_a_key_of_another_certificate_is_said_and_tried_again(self):
+        self.begin_broker(settings=certificates.make(self.folder.name))
+        os.link(self.path("broker.key"), self.path("key"))
+        service = self.begin(f'{self.secret("right")}certificate_file = "{self.path("mine.pem")}"\nkey_file = "{self.path("key")}"\n',
+                             wait_for="tries again")
+        self.assertIn(f"MQTT: {self.path('key')}: is the key of another certificate", service.said())
+        self.moves()
+        os.replace(self.path("mine.key"), self.path("key"))
+        self.until(lambda: "MQTT: connected" in service.said(), service)
 
     def test_files_that_are_not_there_are_told_and_tried_again(self):
         settings = certificates.make(self.folder.name)
@@ -413,7 +482,8 @@ class Served(service_case.ServiceCase, Case):
         self.assertEqual(code, 3, said)
         self.assertTrue(any("5: mqtt.password_file: the first line" in line for line in said), said)
         self.assertTrue(any("6: mqtt.ca_file: there is no file" in line for line in said), said)
-        code, said = self.check(f"{secret.replace('empty', 'whole').replace('nothing', 'whole')}{self.axis()}")
+        certificates.make(self.folder.name)
+        code, said = self.check(f"{secret.replace('empty', 'whole').replace('nothing', 'ca.pem')}{self.axis()}")
         self.assertEqual((code, [line for line in said if "mqtt" in line]), (0, []), said)
         config = self.write(self.axis(), service='[mqtt]\nbroker = "cell4:8883"\nnode = "n"\nca_file = "/x"\ncommands = ["stop"]')
         checked = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", config], capture_output=True, text=True,

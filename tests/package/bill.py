@@ -10,7 +10,7 @@ import subprocess
 KNOWN = {
     "libboost1.74-dev": "BSL-1.0", "libcli11-dev": "BSD-3-Clause", "libfmt-dev": "MIT", "nlohmann-json3-dev": "MIT",
     "libtomlplusplus-dev": "MIT", "libeigen3-dev": "MPL-2.0", "libgpiod-dev": "LGPL-2.1-or-later", "libgpiod": "LGPL-2.1-or-later",
-    "mosquitto": "EPL-2.0 OR BSD-3-Clause", "libmosquitto1": "EPL-2.0 OR BSD-3-Clause", "libssl-dev": "Apache-2.0",
+    "mosquitto": "EPL-2.0 OR BSD-3-Clause", "libmosquitto1": "EPL-2.0 OR BSD-3-Clause", "libssl-dev": "Apache-2.0", "libssl3": "Apache-2.0",
     "libsodium-dev": "ISC", "libsodium23": "ISC",
     "libmd0": "BSD-3-Clause", "libc6-dev": "LGPL-2.1-or-later", "libc6": "LGPL-2.1-or-later", "uplot": "MIT",
     "libstdc++-12-dev": "GPL-3.0-or-later WITH GCC-exception-3.1", "g++-12": "GPL-3.0-or-later", "vscode-languageclient": "MIT",

@@ -155,8 +155,9 @@ void Broker::Session::on_message(mosquitto*, void* self, const mosquitto_message
                                     static_cast<std::size_t>(message->payloadlen)});
 }
 
-void Broker::Session::on_log(mosquitto*, void* self, int level, const char* text) {
-    if (level == MOSQ_LOG_ERR) of(self).refusal_ = text;
+void Broker::Session::on_log(mosquitto* session, void* self, int level, const char* text) {
+    std::string& refusal = of(self).refusal_;
+    if (level == MOSQ_LOG_ERR && refusal.empty()) refusal = broker::explained(session, text);
 }
 
 Broker::Broker(const broker::Options& options, Take take)

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 
+#include "broker/session.h"
 #include "config.h"
 #include "hal_linux/group.h"
 #include "hal_linux/tcp_listener.h"
@@ -122,8 +123,12 @@ void check_place(const LocatedText& place, std::vector<Mistake>& missing) {
 /// Only of a client that is switched on.
 void check_mqtt(const MqttConfig& mqtt, std::vector<Mistake>& missing) {
     if (!mqtt.broker.is_there()) return;
-    for (const LocatedText& file : mqtt.tls_files) {
-        if (file.is_there()) may_read(file, missing);
+    for (const broker::Mistake& mistake : broker::mistakes_in_files(mqtt.options)) {
+        const auto file = std::find_if(
+            mqtt.tls_files.begin(), mqtt.tls_files.end(),
+            [&mistake](const LocatedText& one) { return one.key == fmt::format("mqtt.{}", mistake.key); });
+        if (file != mqtt.tls_files.end() && may_read(*file, missing))
+            missing.push_back({file->line, file->key, mistake.text});
     }
     const LocatedText& file = mqtt.password_file;
     if (!file.is_there() || !may_read(file, missing)) return;

@@ -243,9 +243,10 @@ void Client::Loop::on_connect(mosquitto* session, void* self, int code) {
         ::mosquitto_subscribe(session, &loop.question_, topic.c_str(), 1);
 }
 
-/// TLS errors from the library's log.
-void Client::Loop::on_log(mosquitto*, void* self, int level, const char* text) {
-    if (level == MOSQ_LOG_ERR) of(self).refusal_ = text;
+/// TLS errors from the library's log. The first line says the most.
+void Client::Loop::on_log(mosquitto* session, void* self, int level, const char* text) {
+    std::string& refusal = of(self).refusal_;
+    if (level == MOSQ_LOG_ERR && refusal.empty()) refusal = broker::explained(session, text);
 }
 
 /// The answer to the last subscription: all are complete.

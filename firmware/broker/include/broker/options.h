@@ -23,7 +23,7 @@ bool read_address(const std::string& text, Options& options);
 
 struct Mistake {
     std::string_view key;  ///< key in the options' file, "key_file"
-    std::string_view text;
+    std::string text;
 };
 /// Contradictions between user, password and certificates.
 std::vector<Mistake> mistakes_of(const Options& options);
