@@ -40,8 +40,8 @@ std::string condition(test::Random& random, bool edges, unsigned depth = 2) {
 }
 
 /// Step S, whose branches lead to T0, T1 and so on, one each, a branch a line.
-struct Program {
-    explicit Program(unsigned seed) {
+struct BranchProgram {
+    explicit BranchProgram(unsigned seed) {
         test::Random random(seed);
         const bool edges = random() % 5 != 0;
         branches = 2 + random() % 3;
@@ -102,7 +102,7 @@ TEST(NeverTaken, IsSaidOfTheBranchesThatNoCourseTakesAndOfNoOthers) {
     unsigned dead = 0;
     unsigned told = 0;
     for (unsigned seed = 0; seed < NPLC_RANDOM_PROGRAMS; ++seed) {
-        const Program program(seed);
+        const BranchProgram program(seed);
         const Compilation result = compile(program.text);
         if (!result.ok) continue;
         ++compiled;
