@@ -57,7 +57,8 @@ class List {
         for (unsigned i = 0; i < kInputs; ++i) {
             const std::string terminal = fmt::format("IN{}", i);
             add(behind(Id::in0, i), terminal, Kind::truth, Causality::input, "",
-                "Level at the gateway's input terminal" + named(names_.inputs[i], terminal));
+                "Level at the gateway's input terminal" +
+                    named((names_.is_inverted(i) ? "NOT " : "") + names_.inputs[i], terminal));
         }
     }
 

@@ -133,7 +133,8 @@ void add_world(arguments::App& app, RunOptions& options) {
                    "inputs, line faults and expectations, see host-sim/scenario")
         ->type_name("S.scn");
     app.add_option("--inputs", options.inputs,
-                   "inputs that are on from the beginning, by name or as IN0..IN5: Well,Guard")
+                   "inputs that are on from the beginning, by name or as IN0..IN5: Well,Guard (of an input "
+                   "declared AT NOT IN2, IN2 switches the terminal on)")
         ->delimiter(',')
         ->type_name("NAMES");
     app.add_option("--plant", options.plant,

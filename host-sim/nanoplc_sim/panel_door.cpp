@@ -50,6 +50,7 @@ void rename(Names& names, std::string_view symbols) {
     };
     take(names.inputs, given.inputs);
     take(names.outputs, given.outputs);
+    names.inverted_inputs = given.inverted_inputs;
     names.steps = given.steps;
     names.copy_of.clear();
     names.groups.clear();
@@ -204,7 +205,8 @@ void PanelDoor::record_force(double now, bool is_input, const registers::gateway
         if (!is && !was) continue;
         if (is && was && level == ((before.levels & bit) != 0)) continue;
         const std::string name = is_input ? names_.input(i) : names_.output(i);
-        add_to_record(now, is ? fmt::format("gateway force {} := {:d}", name, level)
+        const bool holds = level != (is_input && names_.is_inverted(i));
+        add_to_record(now, is ? fmt::format("gateway force {} := {:d}", name, holds)
                               : fmt::format("gateway release {}", name));
     }
 }

@@ -62,12 +62,13 @@ void remove_left(const std::string& path) {
     if (text.find(kLeftByTrace) != std::string::npos) std::filesystem::remove(path, ignored);
 }
 
-/// Parses --inputs.
-unsigned input_named(std::string_view name, const Program& program) {
+/// Parses --inputs: the terminal, and its level when the name is on.
+std::pair<unsigned, bool> input_named(std::string_view name, const Program& program) {
     std::string known;
     for (unsigned i = 0; i < kInputs; ++i) {
         const std::string own = program.names.input(i);
-        if (same_name(own, name) || same_name(fmt::format("IN{}", i), name)) return i;
+        if (same_name(own, name)) return {i, !program.names.is_inverted(i)};
+        if (same_name(fmt::format("IN{}", i), name)) return {i, true};
         known += (known.empty() ? "" : ", ") + own;
     }
     throw InputError(
@@ -110,7 +111,10 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
                                      loaded.fault.term, sequencer::describe(loaded.fault.error),
                                      registers::name_of(program.names.motor)));
     }
-    for (const std::string& name : options.inputs) world_.set_input(input_named(name, program), true);
+    for (const std::string& name : options.inputs) {
+        const auto [input, level] = input_named(name, program);
+        world_.set_input(input, level);
+    }
     if (options.csv) csv_.emplace(*options.csv);
     if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
     if (options.junit) junit_.emplace(*options.junit);

@@ -115,7 +115,7 @@ Timeline::Timeline(const Names& names, const Palette& palette, std::size_t colum
 }
 
 std::string Timeline::inputs(const Snapshot& s) const {
-    return active(s.inputs, kInputs, [&](unsigned i) { return names_.input(i); });
+    return active(names_.named(s.inputs), kInputs, [&](unsigned i) { return names_.input(i); });
 }
 
 std::string Timeline::outputs(const Snapshot& s) const {
@@ -155,8 +155,9 @@ std::vector<std::string> Timeline::events(const Snapshot& s) const {
         list.push_back(fmt::format("{}{}{}", palette_.order, in_words(order, names_.motor), palette_.plain));
     }
     for (unsigned i = 0; i < kInputs; ++i) {
-        const bool now = (s.inputs >> i & 1) != 0;
-        mention(list, now, (before.inputs >> i & 1) != 0, names_.input(i) + " on", names_.input(i) + " off");
+        const bool now = (names_.named(s.inputs) >> i & 1) != 0;
+        const bool was = (names_.named(before.inputs) >> i & 1) != 0;
+        mention(list, now, was, names_.input(i) + " on", names_.input(i) + " off");
     }
     for (unsigned i = 0; narrow_ && i < kOutputs; ++i) {
         const bool now = (s.outputs >> i & 1) != 0;

@@ -45,8 +45,11 @@ action::Breakpoints breakpoints(Reader& reader, ConditionParser& conditions) {
     return where;
 }
 
-action::ForceSignals signal_to_force(ConditionParser& conditions) {
-    const Value signal = conditions.signal("an input or output, such as gateway force IN0 := 1");
+Value signal_to_force(ConditionParser& conditions) {
+    return conditions.signal("an input or output, such as gateway force IN0 := 1");
+}
+
+action::ForceSignals force_of(const Value& signal) {
     return {.outputs = signal.kind == Value::Kind::output,
             .mask = static_cast<std::uint8_t>(1U << signal.index)};
 }
@@ -56,7 +59,7 @@ std::vector<action::ForceSignals> signals_to_release(Reader& reader, ConditionPa
     if (reader.take("all"))
         return {{.outputs = false, .mask = kAll, .releases = true},
                 {.outputs = true, .mask = kAll, .releases = true}};
-    action::ForceSignals released = signal_to_force(conditions);
+    action::ForceSignals released = force_of(signal_to_force(conditions));
     released.releases = true;
     return {released};
 }
@@ -85,7 +88,7 @@ void ActionParser::action(Actions& list, Time after) {
     if (reader_.is(":=", 1)) return set_input(list, after);
     if (reader_.take("pulse")) return pulse(list, after);
     if (reader_.take("toggle"))
-        return add(list, after, action::ToggleInput{conditions_.input("an input to toggle")});
+        return add(list, after, action::ToggleInput{conditions_.input("an input to toggle").index});
     if (reader_.take("cancel")) return add(list, after, cancelled());
     if (reader_.take("line")) return line(list, after);
     if (reader_.take("motor")) return motor(list, after);
@@ -105,10 +108,10 @@ void ActionParser::action(Actions& list, Time after) {
 
 void ActionParser::set_input(Actions& list, Time after) {
     if (reader_.peek().kind == Token::Kind::word && !reader_.is(":=", 1)) check_known_word();
-    const unsigned index = conditions_.input(kActions);
+    const Terminal input = conditions_.input(kActions);
     reader_.want(":=", ":= and the level, such as IN0 := 1");
-    const bool level = conditions_.level();
-    add_for(list, after, action::SetInput{index, level}, action::SetInput{index, !level});
+    const bool level = input.level(conditions_.level());
+    add_for(list, after, action::SetInput{input.index, level}, action::SetInput{input.index, !level});
 }
 
 action::Cancel ActionParser::cancelled() {
@@ -122,7 +125,8 @@ action::Cancel ActionParser::cancelled() {
     for (const auto& [word, what] : kWords) {
         if (reader_.take(word)) return {what};
     }
-    return {What::input, conditions_.input("an input, motor, line, gateway, log, end or all after cancel")};
+    return {What::input,
+            conditions_.input("an input, motor, line, gateway, log, end or all after cancel").index};
 }
 
 /// A first word that is no signal is probably a misspelt statement.
@@ -153,13 +157,13 @@ void ActionParser::check_known_word() {
 }
 
 void ActionParser::pulse(Actions& list, Time after) {
-    const unsigned index = conditions_.input("an input, such as pulse IN0 50 ms");
+    const Terminal input = conditions_.input("an input, such as pulse IN0 50 ms");
     reader_.take("for");
     const Time length = reader_.duration("how long, such as pulse IN0 50 ms");
     if (length <= Time{0})
         reader_.refuse_time("a pulse must be longer than 0; write such as pulse IN0 50 ms");
-    add(list, after, action::SetInput{index, true});
-    add(list, after + length, action::SetInput{index, false}, true);
+    add(list, after, action::SetInput{input.index, input.level(true)});
+    add(list, after + length, action::SetInput{input.index, input.level(false)}, true);
 }
 
 void ActionParser::line(Actions& list, Time after) {
@@ -244,11 +248,12 @@ void ActionParser::gateway(Actions& list, Time after) {
 }
 
 void ActionParser::force(Actions& list, Time after) {
-    action::ForceSignals forced = signal_to_force(conditions_);
+    const Value signal = signal_to_force(conditions_);
+    action::ForceSignals forced = force_of(signal);
     action::ForceSignals released = forced;
     released.releases = true;
     reader_.want(":=", ":= and the level, such as gateway force IN0 := 1");
-    if (conditions_.level()) forced.levels = forced.mask;
+    if (conditions_.level() != signal.inverted) forced.levels = forced.mask;
     add_for(list, after, forced, released);
 }
 

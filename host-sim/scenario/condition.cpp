@@ -89,7 +89,7 @@ bool Value::is_bit() const {
 double Value::of(const Snapshot& s) const {
     switch (kind) {
         case Kind::input:
-            return s.inputs >> index & 1;
+            return (s.inputs >> index & 1) != (inverted ? 1 : 0) ? 1 : 0;
         case Kind::output:
             return s.outputs >> index & 1;
         case Kind::inputs:
@@ -127,7 +127,7 @@ double Value::of(const Snapshot& s) const {
 std::string Value::name(const Names& names) const {
     switch (kind) {
         case Kind::input:
-            return names.input(index);
+            return names.is_inverted(index) == inverted ? names.input(index) : fmt::format("IN{}", index);
         case Kind::output:
             return names.output(index);
         case Kind::inputs:

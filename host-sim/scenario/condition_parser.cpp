@@ -340,7 +340,7 @@ bool ConditionParser::level() {
 std::optional<Value> ConditionParser::lookup(std::string_view word) const {
     if (same_name(word, "step")) return Value{.kind = Value::Kind::step};
     if (const auto index = named(word, names_.inputs))
-        return Value{.kind = Value::Kind::input, .index = *index};
+        return Value{.kind = Value::Kind::input, .index = *index, .inverted = names_.is_inverted(*index)};
     if (const auto index = named(word, names_.outputs))
         return Value{.kind = Value::Kind::output, .index = *index};
     if (const auto index = numbered(word, "IN", kInputs))
@@ -410,7 +410,7 @@ void ConditionParser::edge(Event& event) {
     if (is_order) event.edge = Event::Edge::each;
 }
 
-unsigned ConditionParser::input(std::string_view use) {
+Terminal ConditionParser::input(std::string_view use) {
     if (reader_.peek().kind != Token::Kind::word) reader_.fail(use);
     const std::string_view word = reader_.peek().text;
     const auto found = lookup(word);
@@ -426,14 +426,16 @@ unsigned ConditionParser::input(std::string_view use) {
         reader_.refuse_next(fmt::format("\"{}\" is no input; write one of {}IN0..IN5", word, known));
     }
     reader_.next();
-    return found->index;
+    return {found->index, found->inverted};
 }
 
 Value ConditionParser::signal(std::string_view use) {
     const std::string_view word = reader_.peek().text;
     const auto found = lookup(word);
-    if (!found || found->kind != Value::Kind::output)
-        return {.kind = Value::Kind::input, .index = input(use)};
+    if (!found || found->kind != Value::Kind::output) {
+        const Terminal terminal = input(use);
+        return {.kind = Value::Kind::input, .index = terminal.index, .inverted = terminal.inverted};
+    }
     reader_.next();
     return *found;
 }

@@ -96,6 +96,14 @@ struct OrderReading {
 };
 OrderReading read_order(std::string_view text, const Names& names);
 
+/// An input as it is named.
+struct Terminal {
+    unsigned index = 0;
+    bool inverted = false;
+    /// What the terminal has when the name has `on`.
+    bool level(bool on) const { return on != inverted; }
+};
+
 /// Conditions and events of the language. All functions throw LineMistake.
 class ConditionParser {
   public:
@@ -106,7 +114,7 @@ class ConditionParser {
     /// 0, 1, FALSE, TRUE, OFF, ON
     bool level();
     /// An input by its own or the program's name; `use` names its purpose for messages.
-    unsigned input(std::string_view use);
+    Terminal input(std::string_view use);
     /// An input or output.
     Value signal(std::string_view use);
     /// A step by its name or number.

@@ -167,7 +167,9 @@ class LineParser {
     void follows() {
         check_inputs();
         FollowRule rule;
-        rule.input = conditions_.input("an input, such as IN2 follows OUT0 after 300 ms");
+        const Terminal input = conditions_.input("an input, such as IN2 follows OUT0 after 300 ms");
+        rule.input = input.index;
+        rule.inverted = input.inverted;
         rule.line = line_;
         reader_.next();
         rule.condition = conditions_.condition();
@@ -189,9 +191,9 @@ class LineParser {
     /// Part appears every 2 s, Part appears for 100 ms 300 ms after Feed rises, Part appears at 2 s
     void comes(bool level) {
         check_inputs();
-        const unsigned input = conditions_.input("an input, such as IN2 appears every 2 s");
+        const Terminal input = conditions_.input("an input, such as IN2 appears every 2 s");
         reader_.next();
-        const Actions actions = levels(input, level, reader_.lasting());
+        const Actions actions = levels(input.index, input.level(level), reader_.lasting());
         if (reader_.take("every")) {
             EveryRule rule = period("IN2 appears every 2 s");
             rule.actions = actions;

@@ -132,9 +132,10 @@ bool ScenarioRunner::follow(const Snapshot& snapshot) {
         }
         if (!followed.due || *followed.due > snapshot.time) continue;
         followed.due.reset();
-        if ((snapshot.inputs >> rule.input & 1) == (wanted ? 1 : 0)) continue;
+        const bool level = wanted != rule.inverted;
+        if ((snapshot.inputs >> rule.input & 1) == (level ? 1 : 0)) continue;
         guard_against_loops(snapshot.time, rule.line);
-        stage_.set_input(rule.input, wanted);
+        stage_.set_input(rule.input, level);
         any = true;
     }
     return any;

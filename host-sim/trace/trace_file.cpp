@@ -174,7 +174,7 @@ void VcdTrace::observe(const Snapshot& s) {
     put(id(kTimer), vector<16>(s.timer, kTimer));
     put(id(kCounter), vector<16>(s.counter, kCounter));
     for (unsigned i = 0; i < kInputs; ++i) {
-        put(code(kFirstInput, i), scalar((s.inputs >> i & 1) != 0, code(kFirstInput, i)));
+        put(code(kFirstInput, i), scalar((names_.named(s.inputs) >> i & 1) != 0, code(kFirstInput, i)));
     }
     for (unsigned i = 0; i < kOutputs; ++i) {
         put(code(kFirstOutput, i), scalar((s.outputs >> i & 1) != 0, code(kFirstOutput, i)));

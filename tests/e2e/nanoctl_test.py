@@ -565,6 +565,20 @@ class Words(Case):
         self.assertTrue(self.ctl("force", "OUT2=1")["outputs_kept_safe"])
         self.assertIn("the safe state keeps the outputs", self.call("force").stdout)
 
+    def test_a_force_of_an_inverted_input_is_of_its_wire(self):
+        with open(self.path("g.seq"), "w", encoding="utf-8") as file:
+            file.write("PROGRAM G MOTOR MAC140; VAR_INPUT Estop AT NOT IN2; END_VAR STEP A: OWN ERROR; IF NOT Estop THEN "
+                       "NEXT := B; END_IF END_STEP STEP B: OWN ERROR; IF Estop THEN NEXT := A; END_IF END_STEP END_PROGRAM\n")
+        subprocess.run([SEQC, "build", self.path("g.seq"), "--quiet", "-o", self.path("g.bin")], check=True)
+        names = "--sym", self.path("g.sym")
+        self.start()
+        self.ctl("upload", self.path("g.bin"), "--run")
+        self.assertIn("Estop", self.call(*names, "status").stdout)
+        refused = self.ctl(*names, "force", "Estop=1", exit_code=2)["error"]
+        self.assertIn("Estop is NOT IN2, and a force is of the wire: write IN2=0 for Estop on, IN2=1 for off", refused)
+        self.assertEqual(self.ctl(*names, "force", "IN2=1")["forced"], {"NOT Estop": 1})
+        self.until(lambda status: status["step"] == 2)
+
     def test_kept_forces_that_are_ended_elsewhere_end_it(self):
         self.start()
         for end, by in ((("force", "--off"), "ended elsewhere"), (("safe",), "ended by a safe command")):

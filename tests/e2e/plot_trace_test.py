@@ -84,6 +84,16 @@ class PlotTrace(FolderCase):
             self.assertIn(text, texts)
         self.assertTrue({"IN0", "OUT0", "2", "counts"}.isdisjoint(texts))
 
+    def test_an_inverted_input_is_drawn_as_its_wire(self):
+        self.put("e.seq", "PROGRAM E MOTOR MAC140; VAR_INPUT Estop AT NOT IN2; END_VAR STEP A: OWN ERROR; IF Estop THEN NEXT := POWER_UP; "
+                          "END_IF END_STEP END_PROGRAM\n")
+        done = self.run_program(NANOPLC_SIM, "run", "e.seq", "--for", "100ms", "--inputs", "IN2", "--quiet", "--trace", "t.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.plot("t.csv", "-o", "t.svg").returncode, 0)
+        texts = re.findall(r">([^<]*)</text>", self.read("t.svg"))
+        self.assertIn("NOT Estop", texts)
+        self.assertNotIn("Estop", texts)
+
     def test_a_step_that_blinks_is_one_box(self):
         self.put("b.seq", """PROGRAM Blink
 MOTOR MAC140;

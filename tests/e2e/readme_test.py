@@ -105,7 +105,7 @@ class FrontPage(Readme):
         trace = self.put("t.csv", "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n"
                                     "0,0,0,0,0,0,0,0,,0,0\n1,0,0,0,0,0,0,0,,0,0\n")
         for text, said in (("{", "bad.sym:1:2: this is not JSON"), ("[]", "bad.sym: no symbol file"),
-                           ('{"format": "nanoplc-symbols", "version": 2}', "bad.sym: no symbol file of version 1")):
+                           ('{"format": "nanoplc-symbols", "version": 3}', "bad.sym: no symbol file of version 1 or 2")):
             done = self.run_program(os.path.join(ROOT, "tools/plot_trace"), trace, "-o", "no.svg", "--sym",
                                     self.put("bad.sym", text))
             self.assertEqual((done.returncode, done.stdout), (2, ""))

@@ -69,6 +69,77 @@ class Case(FolderCase):
         self.assertIn(says, done.stderr)
 
 
+GUARDED = """PROGRAM Guarded
+MOTOR MAC140;
+VAR_INPUT Start AT IN0 : BOOL; Estop AT NOT IN2 : BOOL; END_VAR
+VAR_OUTPUT Run AT OUT0 : BOOL; Alarm AT OUT1 : BOOL; END_VAR
+ON ERROR NEXT := Stopped;
+ON Estop NEXT := Stopped;
+STEP Idle: IF Start THEN NEXT := Work; END_IF END_STEP
+STEP Work: OUT Run; IF NOT Start THEN NEXT := Idle; END_IF END_STEP
+STEP Stopped: OWN ERROR; OUT Alarm; IF ANY ERROR AND F_TRIG(Estop) THEN RESET_ERROR; NEXT := Idle; END_IF END_STEP
+PROPERTY Safe: NEVER Estop AND Run;
+PROPERTY Never_Alarm: NEVER NOT Estop AND Alarm AND NOT ERROR;
+END_PROGRAM
+"""
+GUARDED_SCENARIO = """at 0 s Estop := 0
+at 100 ms Start := 1
+expect at 150 ms step = Work and Run and not Estop and IN2
+at 200 ms Estop := 1
+expect at 250 ms step = Stopped and Estop and Alarm and not IN2
+at 270 ms Start := 0
+at 300 ms IN2 := 1
+expect at 350 ms step = Idle and Estop = 0
+end at 400 ms
+"""
+
+
+class InvertedInput(Case):
+    """Estop AT NOT IN2: the name goes by its sense, IN2 is the wire."""
+
+    def setUp(self):
+        super().setUp()
+        self.put("blink.seq", GUARDED)
+        self.put("blink.scn", GUARDED_SCENARIO)
+
+    def test_names_go_by_their_sense(self):
+        self.build("-o", "t.bin")
+        for program in ("blink.seq", "t.bin"):
+            with self.subTest(program):
+                done = self.runs(program, "--trace", "t.csv", "--vcd", "t.vcd")
+                events = [event for event in ("Estop off", "Estop on") if event in done.stdout]
+                self.assertEqual(events, ["Estop off", "Estop on"])
+                columns = [line.split(",") for line in self.read("t.csv").decode().splitlines()[1:]]
+                wires = [[int(row[4]) & 4 for row in columns if float(row[0]) <= time][-1] for time in (150, 250, 350)]
+                self.assertEqual(wires, [4, 0, 4], "the trace has the wires")
+                self.assertEqual(json.loads(self.read("t.csv.sym"))["inverted_inputs"], [2])
+
+    def test_a_terminal_that_is_on_from_the_beginning(self):
+        self.put("blink.scn", "expect at 50 ms not Estop and IN2\nend at 60 ms\n")
+        self.runs("blink.seq", "--inputs", "IN2")
+        self.put("blink.scn", "expect at 50 ms Estop and not IN2\nend at 60 ms\n")
+        self.runs("blink.seq", "--inputs", "Estop")
+
+    def test_what_verify_writes_plays(self):
+        done = self.call(SEQC, "verify", "blink.seq", "--scenario", "found.scn")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"proved +Safe: NEVER Estop AND Run")
+        self.assertRegex(done.stdout, r"broken +Never_Alarm: ")
+        found = self.read("found.scn").decode()
+        self.assertRegex(found, r"(?m)^.*Estop := [01]")
+        played = self.call(SIM, "run", "blink.seq", "--scenario", "found.scn", "--quiet")
+        self.assertEqual(played.returncode, 0, found + played.stdout + played.stderr)
+
+    def test_the_table_comes_back(self):
+        self.build("-o", "t.bin")
+        with open(self.path("back.seq"), "w", encoding="utf-8") as file:
+            file.write(self.call(SEQC, "decompile", "t.bin").stdout)
+        back = self.read("back.seq").decode()
+        self.assertIn("Estop AT NOT IN2 : BOOL;", back)
+        done = self.call(SEQC, "diff", "t.bin", "back.seq")
+        self.assertIn("the same bytes", done.stdout, back)
+
+
 class Names(Case):
     def test_a_table_with_its_symbols_runs_as_its_source(self):
         self.build("-o", "t.bin")

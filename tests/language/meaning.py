@@ -56,6 +56,7 @@ class Program(Judge):
     def __init__(self, tree, register_map, command_bytes):
         self.tree, self.map, self.bytes = tree, register_map, command_bytes
         self.inputs = {f"IN{n}": n for n in range(6)} | {f"%IX0.{n}": n for n in range(6)}
+        self.inverted = set()  # names of inputs that are on while the wire is off
         self.outputs = {f"OUT{n}": n for n in range(4)} | {f"%QX0.{n}": n for n in range(4)}
         self.set_points = {}
         self.names, self.values, self.faults, self.groups, self.helpers = {}, [], set(), {}, {}
@@ -83,9 +84,11 @@ class Program(Judge):
             self.per_rev = float(length[0].text) / float(turns[0].text), length[1].text.upper()
         for block in self.items("signals"):
             known = self.inputs if "VAR_INPUT" in block.words() else self.outputs
-            names = [t for t in block.words()[1:] if t not in ("AT", ":", "BOOL", ";", "END_VAR")]
+            names = [t for t in block.words()[1:] if t not in ("AT", "NOT", ":", "BOOL", ";", "END_VAR")]
             for name, address in zip(names, block.nodes("signal")):
                 known[name] = known[address.text().upper()]
+                before = block.children[block.children.index(address) - 1]
+                self.inverted |= {name} if before.text.upper() == "NOT" else set()
         for constant in self.items("constant"):
             self.constants[constant.words()[1]] = Reckoner(self.constants).value(constant.node("value"))
         for block in self.items("registers"):
@@ -294,16 +297,22 @@ class Program(Judge):
             return total
         words = node.words()
         if is_edge(node):
-            return self.edge(self.inputs[node.node("signal").text().upper()], EDGES[words[0]])
+            return self.edge(*self.edge_of(node))
         if words[:1] == ["NOT"]:
             return ALL & ~parts[0]
         if parts:
             return parts[0]
         if node.node("signal"):
-            return TRUE_OF[self.inputs[node.node("signal").text().upper()]]
+            name = node.node("signal").text().upper()
+            return TRUE_OF[self.inputs[name]] ^ (ALL if name in self.inverted else 0)
         if words[0] in ("TRUE", "ANY", "FALSE"):
             return 0 if words[0] == "FALSE" else ALL
         return TRUE_OF[BITS[words[0]]]
+
+    def edge_of(self, node):
+        """The bit, and whether its wire rises."""
+        name = node.node("signal").text().upper()
+        return self.inputs[name], EDGES[node.words()[0]] != (name in self.inverted)
 
     def edge(self, bit, rising):
         if self.armed is None:

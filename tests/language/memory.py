@@ -48,7 +48,7 @@ class Memory:
         ifs = [part for part in parts if part.kind == "if"]
         for node in ifs:
             for edge in filter(is_edge, find(node, "primary")):
-                key = (program.inputs[edge.node("signal").text().upper()], EDGES[edge.words()[0]])
+                key = program.edge_of(edge)
                 self.edges += [key] if key not in self.edges else []
         if len(self.edges) > 4:
             self.faults.add("E074")

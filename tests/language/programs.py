@@ -250,7 +250,8 @@ class Writer:
                 first = f"CALL Inner(Guard, {self.names[0]}); {first}" if self.nested and self.chance(0.6) else self.call()
             kept = f"OUT {self.rng.choice(OUTPUTS)}; " if not self.latched and self.chance(0.2) else ""
             text += f"POWER_UP {kept}{' '.join(self.statements(False, False))} {first} END_POWER_UP\n"
-        return text + "\n".join(step.format(**terms) for step in steps) + "\nEND_PROGRAM\n"
+        text += "\n".join(step.format(**terms) for step in steps) + "\nEND_PROGRAM\n"
+        return text.replace("Ack AT IN2", "Ack AT NOT IN2") if self.chance(0.5) else text
 
 
 def program(rng):

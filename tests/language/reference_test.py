@@ -90,7 +90,8 @@ class Reference(unittest.TestCase):
 
     def read_row(self, program, before):
         inputs = before.get("inputs", "-")
-        image = sum(1 << program.inputs[name.upper()] for name in inputs.split(",") if name != "-")
+        on = {name.upper() for name in inputs.split(",") if name != "-"}
+        image = sum({1 << program.inputs[name] for name in on ^ program.inverted})
         image |= int(before.get("INPOS", 0)) << 6 | int(before.get("ERROR", 0)) << 7
         return image, int(before.get("dt", 1))
 

@@ -210,6 +210,23 @@ class Rehearsal(Case):
             with self.assertRaises(Refused):
                 self.debugger.set(scope, name, value)
 
+    def test_an_inverted_input_is_shown_and_set_by_its_name(self):
+        self.program = os.path.join(self.folder, "g.seq")
+        with open(self.program, "w", encoding="utf-8") as file:
+            file.write("PROGRAM G\nMOTOR MAC140;\nVAR_INPUT Estop AT NOT IN2 : BOOL; END_VAR\n"
+                       "STEP A: OWN ERROR; IF NOT Estop THEN NEXT := B; END_IF END_STEP\n"
+                       "STEP B: OWN ERROR; IF Estop THEN NEXT := A; END_IF END_STEP\nEND_PROGRAM\n")
+        self.launch(stopOnEntry=True)
+        self.debugger.request("configurationDone")
+        self.debugger.wait_for("stopped")
+        self.assertEqual(self.debugger.values("Inputs")["Estop"], "TRUE")  # the terminal is off
+        self.assertEqual(self.debugger.set("Inputs", "Estop", "0"), "FALSE")
+        self.debugger.request("setFunctionBreakpoints", {"breakpoints": [{"name": "B"}]})
+        self.debugger.request("continue", {"threadId": 1})
+        self.debugger.wait_for("stopped")
+        self.assertEqual(self.debugger.step(), "B")
+        self.assertEqual(self.debugger.values("Inputs")["Estop"], "FALSE")
+
     def test_what_never_ends_can_be_paused(self):
         self.launch()
         self.debugger.request("configurationDone")

@@ -202,6 +202,12 @@ class Writing(Case):
         self.assertIn("to **Hold**", step)
         self.assertIn("C2 ", step)  # 80h, 40h and STATE 2: the first byte of its terms
 
+    def test_hover_on_an_inverted_input(self):
+        text = ("PROGRAM G\nMOTOR MAC140;\nVAR_INPUT Estop AT NOT IN2 : BOOL; END_VAR\n"
+                "STEP A: OWN ERROR; IF NOT Estop THEN NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n")
+        shown = self.client.at("textDocument/hover", self.open(text), place_of(text, "Estop THEN"))["contents"]["value"]
+        self.assertEqual(shown, "input **Estop** at NOT IN2: on while the wire is off")
+
     def test_signature(self):
         shown = self.client.at("textDocument/signatureHelp", self.uri, place_of(self.text, "INIT(Fast, Soft", 11))
         self.assertEqual((shown["signatures"][0]["label"], shown["activeParameter"]), ("INIT(V, A, T, L, Z)", 1))

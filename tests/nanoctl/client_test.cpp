@@ -638,5 +638,18 @@ TEST(Client, AnUploadWhoseEndIsNotSeenClaimsNothing) {
     }
 }
 
+TEST(NanoctlNames, AnInvertedInputIsListedByItsName) {
+    seqc::SymbolFile file;
+    file.symbols.inputs = {"Start", "IN1", "Estop", "IN3", "IN4", "IN5"};
+    file.symbols.inverted_inputs = 0x04;
+    const Names names(file);
+    EXPECT_EQ(signals_text(0x00, 6, names, true), "Estop");
+    EXPECT_EQ(signals_text(0x05, 6, names, true), "Start");
+    EXPECT_EQ(names.wire(2), "NOT Estop");
+    EXPECT_EQ(names.wire(0), "Start");
+    EXPECT_EQ(Names().wire(2), "IN2");
+    EXPECT_EQ(signals_text(0x04, 6, Names(), true), "IN2");
+}
+
 }  // namespace
 }  // namespace nplc::nanoctl

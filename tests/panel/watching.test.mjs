@@ -1,9 +1,10 @@
 // The picture follows the sequence, in all examples; what the page shows; old data; lost connections.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { Client, closeBrowser, examples, file, halt, hasText, inStep, openPage, operate, painted, quietLine, simulator, textOf } from "./machine.mjs";
+import { Client, closeBrowser, examples, file, halt, hasText, inStep, openPage, operate, painted, programs, quietLine, simulator, textOf } from "./machine.mjs";
 
 after(closeBrowser);
 
@@ -46,6 +47,34 @@ test("every condition of every way out is true or false as the machine is", () =
     assert.match(await textOf(page, ".card .badge >> nth=0"), /waits for Start, NOT Guard/);
     await page.context().close();
   }));
+
+test("an inverted input has its conditions by name, and its lamp and switch as the wire", () => {
+  const program = file("seq", "PROGRAM Guarded\nMOTOR MAC140;\nVAR_INPUT Estop AT NOT IN2 : BOOL; END_VAR\n" +
+    "STEP A: OWN ERROR; IF NOT Estop THEN NEXT := B; END_IF END_STEP\nSTEP B: OWN ERROR; IF Estop THEN NEXT := A; END_IF END_STEP\nEND_PROGRAM\n");
+  return withMachine(program, {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await inStep(page, 1);
+    const row = page.locator("li", { has: page.locator('.signal-name[title="IN2"]') });
+    assert.equal(await row.locator(".signal-name").textContent(), "NOT Estop");
+    assert.equal(await row.locator(".lamp").textContent(), "0");
+    assert.match(await textOf(page, ".card .badge >> nth=0"), /waits for NOT Estop/);
+    await operate(page, machine.token);
+    await page.click('.press[aria-label="switch NOT Estop"]');
+    await inStep(page, 2);
+    assert.equal(await row.locator(".lamp").textContent(), "1");
+    assert.match(await textOf(page, ".card .badge >> nth=0"), /waits for Estop/);
+    await page.selectOption('select[aria-label="force NOT Estop"]', "0");
+    await inStep(page, 1);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
+    const recorded = readFileSync(await download.path(), "utf8");
+    assert.match(recorded, /ms toggle Estop\nat [\d.]+ ms gateway force Estop := 1\n/);
+    const wanted = `${recorded}expect at end step = A and IN2\n`;
+    execFileSync(join(programs, "nanoplc-sim"), ["run", program, "--scenario", file("scn", wanted)], { encoding: "utf8" });
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  });
+});
 
 test("hover and focus tell a step's terms in the program's names and units, and no longer than that", () =>
   withMachine(join(examples, "pick_and_place.seq"), {}, async (machine) => {

@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"", "[]", "this is no symbol file"}, Bad{"", "3", "this is no symbol file"},
         Bad{"/format", "\"elf\"", "this is no symbol file"},
         Bad{"/format", "1", "format: this must be a text"},
-        Bad{"/version", "2", "version 2 was written by a newer seqc; this one reads version 1"},
+        Bad{"/version", "3", "version 3 was written by a newer seqc; this one reads version 2"},
         Bad{"/version", "0", "version: this must be a whole number, 1 to"},
         Bad{"/version", "\"1\"", "version: this must be a whole number"},
         Bad{"/program", "\"Two words\"", "program: this is no name"},

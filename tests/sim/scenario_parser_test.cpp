@@ -193,6 +193,23 @@ TEST(ScenarioParser, ForcesAndBreakpoints) {
         EXPECT_FALSE(parse(std::string("at 1 s ") + text).mistakes.empty()) << text;
 }
 
+TEST(ScenarioParser, AForceOfAnInvertedInputGoesByTheName) {
+    Names names;
+    names.inputs[2] = "Estop";
+    names.inverted_inputs = 0x04;
+    const auto levels = [&names](const std::string& text) {
+        const ParsedScenario parsed = parse_scenario("at 1 s gateway force " + text, "x.scn", names);
+        for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << text << ": " << found.message;
+        const auto force = std::get<action::ForceSignals>(parsed.scenario.at.at(0).actions.at(0).what);
+        EXPECT_EQ(force.mask, 4) << text;
+        return force.levels;
+    };
+    EXPECT_EQ(levels("Estop := 1"), 0);
+    EXPECT_EQ(levels("Estop := 0"), 4);
+    EXPECT_EQ(levels("IN2 := 1"), 4);
+    EXPECT_EQ(levels("IN2 := 0"), 0);
+}
+
 TEST(ScenarioParser, DelaysOfAListAddUp) {
     const auto parsed = parse("at 1 s Start := 1, after 50 ms Start := 0, after 10 ms toggle IN1");
     ASSERT_EQ(parsed.scenario.at.size(), 1U);

@@ -515,5 +515,53 @@ TEST(ScenarioRunner, WhatIsSeenHasTheUnitAskedFor) {
     EXPECT_EQ(seen("TORQUE < 50 %"), "at 1.000 ms TORQUE = 50.0489 %");
 }
 
+/// Estop AT NOT IN2, declared so
+Names with_inverted() {
+    Names names;
+    names.inputs[2] = "Estop";
+    names.inverted_inputs = 0x04;
+    return names;
+}
+
+TEST(ScenarioInvertedInput, ActionsGoByTheName) {
+    Bench bench(
+        "at 1 ms Estop := 0\nat 2 ms Estop := 1\nat 3 ms IN2 := 1\nat 4 ms Estop := 1 for 2 ms\n"
+        "at 8 ms pulse Estop 1 ms\nat 10 ms toggle Estop\nat 11 ms IN2 := 0\nEstop disappears at 12 ms\n"
+        "Estop appears at 13 ms\n",
+        with_inverted());
+    bench.run_to(20ms);
+    const std::vector<std::string> levels{"1: IN2=1",  "2: IN2=0",  "3: IN2=1", "4: IN2=0",
+                                          "6: IN2=1",  "8: IN2=0",  "9: IN2=1", "10: IN2=0",
+                                          "11: IN2=0", "12: IN2=1", "13: IN2=0"};
+    EXPECT_EQ(bench.done, levels);
+}
+
+TEST(ScenarioInvertedInput, FollowsByTheName) {
+    Bench bench("Estop follows OUT0 after 2 ms back after 3 ms\n", with_inverted());
+    bench.set_outputs(0ms, 0);
+    EXPECT_EQ(bench.s.inputs, 0x04);
+    bench.set_outputs(10ms, 1);
+    bench.run_to(12ms);
+    EXPECT_EQ(bench.s.inputs, 0x00);
+    bench.set_outputs(20ms, 0);
+    bench.run_to(22ms);
+    EXPECT_EQ(bench.s.inputs, 0x00);
+    bench.run_to(23ms);
+    EXPECT_EQ(bench.s.inputs, 0x04);
+}
+
+TEST(ScenarioInvertedInput, ConditionsGoByTheName) {
+    Bench bench(
+        "when Estop rises log \"pressed\"\nwhen IN2 rises log \"wire on\"\nexpect Estop = 0 and IN2\n"
+        "at 5 ms IN2 := 1\nat 9 ms IN2 := 0\nat 15 ms Estop := 0\n",
+        with_inverted());
+    bench.run_to(20ms);
+    const std::vector<std::string> done{"5: IN2=1",   "5: wire on", "9: IN2=0",
+                                        "9: pressed", "15: IN2=1",  "15: wire on"};
+    EXPECT_EQ(bench.done, done);
+    EXPECT_TRUE(bench.passes());
+    EXPECT_EQ(bench.seen(), "at 20.000 ms Estop = 0, IN2 = 1");
+}
+
 }  // namespace
 }  // namespace nplc::sim

@@ -203,6 +203,21 @@ TEST_F(Trace, VcdCanBeReadBack) {
     EXPECT_EQ(dump.changes.at("OUT3"), (Changes{{0, "0"}}));
 }
 
+TEST_F(Trace, AnInvertedInputIsInTheVcdByItsName) {
+    Names names;
+    names.inputs[2] = "Estop";
+    names.inverted_inputs = 0x04;
+    VcdTrace trace(path("t.vcd"), names);
+    Snapshot s;
+    trace.observe(s);
+    s.time = 5ms;
+    s.inputs = 0x04;
+    trace.observe(s);
+    trace.finish(10ms);
+    using Changes = std::vector<std::pair<long, std::string>>;
+    EXPECT_EQ(Dump(lines(path("t.vcd"))).changes.at("Estop"), (Changes{{0, "1"}, {5000, "0"}}));
+}
+
 TEST_F(Trace, SignalsCalledAsTheDumpsOwnAreToldFromThem) {
     Names names;
     names.inputs[1] = "command";

@@ -61,6 +61,14 @@ std::string Names::input(unsigned index) const {
     return symbols_ ? symbols_->symbols.inputs[index] : fmt::format("IN{}", index);
 }
 
+std::string Names::wire(unsigned index) const {
+    return symbols_ ? seqc::wire_name(symbols_->symbols, index) : fmt::format("IN{}", index);
+}
+
+std::uint32_t Names::named(std::uint32_t inputs) const {
+    return inputs ^ (symbols_ ? symbols_->symbols.inverted_inputs : 0U);
+}
+
 std::string Names::output(unsigned index) const {
     return symbols_ ? symbols_->symbols.outputs[index] : fmt::format("OUT{}", index);
 }
@@ -115,8 +123,9 @@ std::uint64_t Names::with_copies(unsigned step) const {
 
 std::string signals_text(std::uint32_t bits, unsigned count, const Names& names, bool are_inputs) {
     std::string text;
+    const std::uint32_t on = are_inputs ? names.named(bits) : bits;
     for (unsigned i = 0; i < count; ++i) {
-        if ((bits >> i & 1U) == 0) continue;
+        if ((on >> i & 1U) == 0) continue;
         text += (text.empty() ? "" : ", ") + (are_inputs ? names.input(i) : names.output(i));
     }
     return text.empty() ? "none" : text;

@@ -58,8 +58,8 @@ class Symbols:
         self.path = path
         try:
             file = json.loads(text_of(path))
-            if file["format"] != "nanoplc-symbols" or file["version"] != 1:
-                raise Bad(f"{path}: no symbol file of version 1; name the F.sym that seqc build wrote with the table")
+            if file["format"] != "nanoplc-symbols" or file["version"] not in (1, 2):
+                raise Bad(f"{path}: no symbol file of version 1 or 2; name the F.sym that seqc build wrote with the table")
             self.program = str(file["program"])
             self.crc32 = str(file["table"]["crc32"])
             self.steps = {int(step["number"]): str(step["name"]) for step in file["steps"]}
@@ -68,6 +68,8 @@ class Symbols:
                            if "copy_of" in step and str(step.get("made_for", "")).startswith("copy of ")}
             names = [("IN", file["inputs"]), ("OUT", file["outputs"])]
             self.signals = {f"{kind}{i}": str(name) for kind, all_names in names for i, name in enumerate(all_names)}
+            for i in file.get("inverted_inputs", []):  # what is drawn is the wire
+                self.signals[f"IN{int(i)}"] = f"NOT {self.signals[f'IN{int(i)}']}"
             free = {entry.get("register") for entry in file.get("set_points", [])}
             self.initial = {int(entry["number"]): int(entry["initial"]) for entry in file["registers"]
                             if "initial" in entry and entry["number"] not in free}

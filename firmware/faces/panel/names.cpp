@@ -23,6 +23,17 @@ std::vector<std::string> texts_in(const nlohmann::json& json, const char* name) 
     return texts;
 }
 
+std::uint8_t inverted_in(const nlohmann::json& json) {
+    constexpr unsigned kInputs = 6;
+    unsigned bits = 0;
+    const auto list = json.find("inverted_inputs");
+    if (list == json.end() || !list->is_array()) return 0;
+    for (const auto& one : *list) {
+        if (one.is_number_unsigned() && one.get<std::uint64_t>() < kInputs) bits |= 1U << one.get<unsigned>();
+    }
+    return static_cast<std::uint8_t>(bits);
+}
+
 std::map<std::uint8_t, std::string> steps_in(const nlohmann::json& json) {
     constexpr unsigned kMostSteps = 63;
     std::map<std::uint8_t, std::string> steps;
@@ -69,7 +80,7 @@ faces::Scaling scale_in(std::string_view text) {
 SignalNames signals_in(std::string_view text) {
     const auto json = json_of(text);
     if (!json.is_object()) return {};
-    return {texts_in(json, "inputs"), texts_in(json, "outputs"), steps_in(json)};
+    return {texts_in(json, "inputs"), texts_in(json, "outputs"), steps_in(json), inverted_in(json)};
 }
 
 bool is_same(const faces::Scaling& a, const faces::Scaling& b) {

@@ -9,6 +9,7 @@
 #include "nanoctl/forces.h"
 #include "nanoctl/set_points.h"
 #include "nanoctl/texts.h"
+#include "text/text.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
@@ -92,6 +93,11 @@ void parse_force(Session& session, const std::string& text, Force& in, Force& ou
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
                         "=0 or =1{}",
                         text, input || output ? "" : session.right_names().guess(name, false)));
+    if (input && session.right_names().input(*input) != session.right_names().wire(*input) &&
+        spelling::is_same(name, session.right_names().input(*input)))
+        throw UserError(fmt::format(
+            "'{0}': {1} is NOT IN{2}, and a force is of the wire: write IN{2}=0 for {1} on, IN{2}=1 for off",
+            text, session.right_names().input(*input), *input));
     if (input ? (in.mask >> *input & 1U) != 0 : (out.mask >> *output & 1U) != 0)
         throw UserError(fmt::format("'{}': {} is named twice; name it once", text, name));
     if (input)
@@ -111,7 +117,7 @@ void tell_forces(Session& session) {
         forced[name] = level ? 1 : 0;
     };
     for (unsigned i = 0; i < 6; ++i) {
-        if ((in >> (8 + i) & 1U) != 0) add(session.names().input(i), (in >> i & 1U) != 0);
+        if ((in >> (8 + i) & 1U) != 0) add(session.names().wire(i), (in >> i & 1U) != 0);
     }
     for (unsigned i = 0; i < 4; ++i) {
         if ((out >> (8 + i) & 1U) != 0) add(session.names().output(i), (out >> i & 1U) != 0);

@@ -73,7 +73,8 @@ std::vector<std::string> actions_between(std::uint8_t before, std::uint8_t image
     std::vector<std::string> actions;
     for (unsigned i = 0; i < 6; ++i) {
         if (((unsigned{before} ^ image) >> i & 1U) != 0)
-            actions.push_back(fmt::format("{} := {}", input_name(names, i), (unsigned{image} >> i) & 1U));
+            actions.push_back(
+                fmt::format("{} := {}", input_name(names, i), input_holds(names, i, image) ? 1 : 0));
     }
     if ((image & ~unsigned{before} & sequencer::kError) != 0) actions.emplace_back("motor error");
     return actions;

@@ -19,7 +19,7 @@ std::string listed(const std::vector<std::string>& words) {
 std::string image_text(std::uint8_t image, const Names& names) {
     std::vector<std::string> on;
     for (unsigned i = 0; i < 6; ++i) {
-        if (((unsigned{image} >> i) & 1U) != 0) on.push_back(input_name(names, i));
+        if (input_holds(names, i, image)) on.push_back(input_name(names, i));
     }
     if ((image & sequencer::kInPos) != 0) on.emplace_back("INPOS");
     if ((image & sequencer::kError) != 0) on.emplace_back("ERROR");
@@ -152,6 +152,10 @@ std::string order_text(const sequencer::MotorOrder& order, const Names& names) {
 
 std::string input_name(const Names& names, unsigned input) {
     return names.inputs[input].empty() ? fmt::format("IN{}", input) : names.inputs[input];
+}
+
+bool input_holds(const Names& names, unsigned input, std::uint8_t image) {
+    return (((unsigned{image} ^ names.inverted_inputs) >> input) & 1U) != 0;
 }
 
 std::string output_name(const Names& names, unsigned output) {

@@ -36,7 +36,7 @@ std::string example_of(const Truth& both, const Truth& a, const Truth& b, const 
     std::string text;
     for (std::size_t bit = 0; bit < kBits; ++bit) {
         if (!depends_on(a, bit) && !depends_on(b, bit)) continue;
-        const bool on = ((first >> bit) & 1U) != 0;
+        const bool on = (((first ^ symbols.inverted_inputs) >> bit) & 1U) != 0;
         const std::string_view name = bit < 6             ? std::string_view(symbols.inputs[bit])
                                       : bit == kInPosBit  ? "INPOS"
                                       : bit == kErrorBit  ? "ERROR"

@@ -179,14 +179,20 @@ class ClaimResolver {
             assumption.move_ms = time;
             return assumption;
         }
+        const Condition& wire = wire_of(condition);
         const bool is_input =
-            written.kind == TestKind::name && condition.kind == Kind::image && condition.number < kInputs;
+            written.kind == TestKind::name && wire.kind == Kind::image && wire.number < kInputs;
         if (is_known && !is_input)
             report_.add("E023", written.span, "it can be assumed of an input alone that it is STABLE",
                         "write ASSUME Start STABLE FOR 50 ms;");
-        assumption.input = condition.number;
+        assumption.input = wire.number;
         assumption.stable_ms = time;
         return assumption;
+    }
+
+    /// What a name's condition reads: of an inverted input its wire.
+    static const Condition& wire_of(const Condition& named) {
+        return named.kind == Kind::negation ? named.operands.front() : named;
     }
 
     /// Blanks made single, a named time as its value.
@@ -248,7 +254,10 @@ class ClaimResolver {
 
     std::optional<Condition> signal_of(std::string_view text) const {
         if (same_name(text, "moving")) return leaf(Kind::moving);
-        if (const auto input = place_of(symbols_.inputs, text)) return leaf(Kind::image, *input);
+        if (const auto input = place_of(symbols_.inputs, text)) {
+            const Condition wire = leaf(Kind::image, *input);
+            return is_inverted(symbols_, *input) ? negated(wire) : wire;
+        }
         if (const auto output = place_of(symbols_.outputs, text)) return leaf(Kind::output, *output);
         for (const std::string_view prefix : {"IN", "%IX0."}) {
             if (const auto input = numbered(text, prefix, kInputs)) return leaf(Kind::image, *input);
@@ -423,7 +432,8 @@ class ClaimResolver {
     void check_never(const Expression& part) {
         const auto signal = part.kind == TestKind::name ? signal_of(part.name.text) : std::nullopt;
         const bool is_own = part.kind == TestKind::step || part.kind == TestKind::timer_q ||
-                            part.kind == TestKind::counter_q || (signal && signal->kind != Kind::image);
+                            part.kind == TestKind::counter_q ||
+                            (signal && wire_of(*signal).kind != Kind::image);
         if (is_own)
             report_.add("E023", part.span, "what the table does itself cannot be assumed",
                         "name inputs, INPOS and ERROR; of what the table does make a PROPERTY");

@@ -22,7 +22,8 @@ class Difference {
         for (std::size_t i = 0; i < memory.edges.size(); ++i) {
             if (!Memory::is_armed(key.memory, i)) continue;
             const Edge& edge = memory.edges[i];
-            add(symbols.inputs[edge.bit], edge.rising ? "off" : "on", "was ");
+            const bool was_on = edge.rising == is_inverted(symbols, edge.bit);
+            add(symbols.inputs[edge.bit], was_on ? "on" : "off", "was ");
         }
         if (memory.runs(key.memory)) {
             name_ += "_timed";

@@ -10,11 +10,11 @@
 
 namespace nplc::seqc {
 
-/// R_TRIG or F_TRIG of an input. It is armed when the input was off (on) in the previous scan of the same
+/// R_TRIG or F_TRIG of an input. It is armed when the wire was off (on) in the previous scan of the same
 /// step.
 struct Edge {
     std::size_t bit = 0;
-    bool rising = true;
+    bool rising = true;  ///< of the wire
     Span span;
     /// The cases that arm it for the next scan.
     Truth arming() const { return rising ? ~truth_of_bit(bit) : truth_of_bit(bit); }

@@ -22,6 +22,7 @@ struct DeclaredName {
     Span span;
     std::size_t bit = 0;                       ///< of an input or output
     const registers::Register* reg = nullptr;  ///< of the motor's
+    bool is_inverted = false;                  ///< of an input: holds while its wire is off
 };
 
 /// Null if there is none.

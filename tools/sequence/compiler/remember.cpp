@@ -56,12 +56,13 @@ class Remembering {
     void add_edges(const ast::Expression& condition) {
         for_each_part(condition, [&](const ast::Expression& part) {
             if (part.kind != ExpressionKind::rising && part.kind != ExpressionKind::falling) return;
-            const auto bit = scope_.input(part.name);
-            const bool rising = part.kind == ExpressionKind::rising;
-            const bool is_known =
-                std::any_of(memory_.edges.begin(), memory_.edges.end(),
-                            [&](const Edge& edge) { return edge.bit == bit && edge.rising == rising; });
-            if (bit && !is_known) memory_.edges.push_back({*bit, rising, part.span});
+            const auto tested = scope_.input(part.name);
+            if (!tested) return;
+            const bool rising = (part.kind == ExpressionKind::rising) == tested->level;
+            const bool is_known = std::any_of(
+                memory_.edges.begin(), memory_.edges.end(),
+                [&](const Edge& edge) { return edge.bit == tested->bit && edge.rising == rising; });
+            if (!is_known) memory_.edges.push_back({tested->bit, rising, part.span});
         });
     }
 

@@ -46,8 +46,8 @@ Truth Scope::truth_of(const ast::Expression& expression) {
         case Kind::counter_q:
             return truth_of_bit(kCounterZero);
         case Kind::name: {
-            const auto bit = input(expression.name);
-            return bit ? truth_of_bit(*bit) : Truth();
+            const auto tested = input(expression.name);
+            return tested ? tested->truth() : Truth();
         }
         case Kind::rising:
         case Kind::falling:
@@ -71,8 +71,8 @@ Truth Scope::truth_of(const ast::Expression& expression) {
 }
 
 Truth Scope::truth_of_edge(const ast::Expression& expression) {
-    const auto bit = input(expression.name);
-    if (!bit) return {};
+    const auto tested = input(expression.name);
+    if (!tested) return {};
     if (edges_ == nullptr) {
         report_.add("E066", expression.span, "an edge can be seen only by a branch of a step",
                     "write IF R_TRIG(..) in the step; what many steps have in common, OUT and TERM take the "
@@ -82,7 +82,7 @@ Truth Scope::truth_of_edge(const ast::Expression& expression) {
     const bool rising = expression.kind == ast::Expression::Kind::rising;
     for (std::size_t i = 0; i < edges_->size(); ++i) {
         const Edge& edge = (*edges_)[i];
-        if (edge.bit == *bit && edge.rising == rising)
+        if (edge.bit == tested->bit && edge.rising == (rising == tested->level))
             return Memory::is_armed(armed_, i) ? edge.seen() : Truth();
     }
     return {};

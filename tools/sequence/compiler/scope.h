@@ -42,8 +42,8 @@ class Scope {
                                      const std::vector<std::string_view>& groups = {}) {
         return steps_.number_of(name, groups);
     }
-    /// Bit number of an input 0..5 or an output 0..3, by its name or address.
-    std::optional<std::size_t> input(const ast::Name& name) { return signals_.input(name); }
+    /// An input, or the bit number of an output 0..3, by its name or address.
+    std::optional<InputTest> input(const ast::Name& name) { return signals_.input(name); }
     std::optional<std::size_t> output(const ast::Name& name) { return signals_.output(name); }
 
     /// A register by a variable's or the manual's name, or by number; reports one that a table cannot write.

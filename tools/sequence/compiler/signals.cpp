@@ -94,12 +94,18 @@ void Signals::declare(const ast::Program& program, Symbols& symbols) {
     for (std::size_t i = 0; i < kOutputs; ++i) symbols.outputs[i] = fmt::format("OUT{}", i);
     declare_all(program.inputs, names_.inputs(), 'I', kInputs);
     declare_all(program.outputs, names_.outputs(), 'Q', kOutputs);
-    for (const DeclaredName& v : names_.inputs()) symbols.inputs[v.bit] = v.name;
+    for (const DeclaredName& v : names_.inputs()) {
+        symbols.inputs[v.bit] = v.name;
+        if (v.is_inverted) symbols.inverted_inputs |= static_cast<std::uint8_t>(1U << v.bit);
+    }
     for (const DeclaredName& v : names_.outputs()) symbols.outputs[v.bit] = v.name;
 }
 
-std::optional<std::size_t> Signals::input(const ast::Name& name) {
-    return find(name, names_.inputs(), 'I', kInputs);
+std::optional<InputTest> Signals::input(const ast::Name& name) {
+    const auto bit = find(name, names_.inputs(), 'I', kInputs);
+    if (!bit) return std::nullopt;
+    const DeclaredName* variable = find_name(names_.inputs(), name.text);
+    return InputTest{*bit, variable == nullptr || !variable->is_inverted};
 }
 
 std::optional<std::size_t> Signals::output(const ast::Name& name) {
@@ -129,7 +135,14 @@ void Signals::declare_all(const std::vector<ast::Variable>& declared, std::vecto
                 .notes.push_back({earlier->span, "declared here"});
             names_.add_faulty(variable.name.text);
         } else if (names_.is_new(variable.name)) {
-            variables.push_back({variable.name.text, variable.name.span, *number, nullptr});
+            const bool is_inverted = variable.inverted.length != 0;
+            if (is_inverted && direction == 'Q') {
+                report_.add("E022", variable.inverted, "an output is never inverted: it is off at power-up",
+                            fmt::format("write {} AT {}, and name it after what it does when it is on",
+                                        variable.name.text, variable.address.text));
+            }
+            variables.push_back(
+                {variable.name.text, variable.name.span, *number, nullptr, is_inverted && direction == 'I'});
         }
     }
 }

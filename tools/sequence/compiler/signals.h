@@ -5,11 +5,19 @@
 #include <vector>
 
 #include "compiler/name_table.h"
+#include "compiler/truth.h"
 #include "diagnostics/report.h"
 #include "language/ast.h"
 #include "seqc/seqc.h"
 
 namespace nplc::seqc {
+
+/// What a name or address of an input tests.
+struct InputTest {
+    std::size_t bit = 0;  ///< 0..5
+    bool level = true;    ///< of the wire when it holds; false: declared with AT NOT
+    Truth truth() const { return level ? truth_of_bit(bit) : ~truth_of_bit(bit); }
+};
 
 /// Inputs and outputs by their names or addresses.
 class Signals {
@@ -17,8 +25,8 @@ class Signals {
     Signals(NameTable& names, Report& report) : names_(names), report_(report) {}
 
     void declare(const ast::Program& program, Symbols& symbols);
-    /// Its bit, 0..5; reports an unknown one.
-    std::optional<std::size_t> input(const ast::Name& name);
+    /// Reports an unknown one. An address is the wire, however a name of it is declared.
+    std::optional<InputTest> input(const ast::Name& name);
     /// Its bit, 0..3.
     std::optional<std::size_t> output(const ast::Name& name);
 

@@ -90,7 +90,12 @@ class TermEncoder {
 
     void add_literal(const Expression& part, bool wanted) {
         std::optional<std::size_t> bit;
-        if (part.kind == Kind::name) bit = scope_.input(part.name);
+        if (part.kind == Kind::name) {
+            const auto tested = scope_.input(part.name);
+            if (!tested) return;
+            bit = tested->bit;
+            wanted = wanted == tested->level;
+        }
         if (part.kind == Kind::in_pos) bit = kInPosBit;
         if (part.kind == Kind::error) bit = kErrorBit;
         if (!bit) return;

@@ -105,7 +105,9 @@ std::vector<Variable> Adapter::variables_in(int scope) {
     std::vector<Variable> list;
     if (scope == kInputs) {
         for (unsigned i = 0; i < kInputCount; ++i)
-            list.push_back({symbols.inputs[i], level_text((look.inputs >> i & 1) != 0), "BOOL", true});
+            list.push_back({symbols.inputs[i],
+                            level_text((look.inputs >> i & 1) != (seqc::is_inverted(symbols, i) ? 1 : 0)),
+                            "BOOL", true});
     } else if (scope == kOutputs) {
         for (unsigned i = 0; i < kOutputCount; ++i)
             list.push_back({symbols.outputs[i], level_text((look.outputs >> i & 1) != 0), "BOOL", true});
@@ -143,7 +145,8 @@ std::string Adapter::set(int scope, const std::string& name, const std::string& 
     if (scope == kMotor) return debuggee().set_register(name, value);
     const bool level = scope == kInputs || scope == kOutputs ? level_in(value) : false;
     if (scope == kInputs) {
-        debuggee().set_input(index_of(symbols.inputs, name), level);
+        const auto input = index_of(symbols.inputs, name);
+        debuggee().set_input(input, level != seqc::is_inverted(symbols, input));
     } else if (scope == kOutputs) {
         debuggee().set_output(index_of(symbols.outputs, name), level);
     } else {

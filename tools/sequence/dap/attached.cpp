@@ -214,8 +214,9 @@ class Attached final : public Debuggee {
             gateway_.write(reg, bits);
         });
         forced_ = true;
+        const bool is_input = reg == gw::FORCE_IN;
         remarks_.push_back(fmt::format(
-            "{} forced to {}", reg == gw::FORCE_IN ? symbols_.inputs[index % 6] : symbols_.outputs[index % 4],
+            "{} forced to {}", is_input ? seqc::wire_name(symbols_, index % 6) : symbols_.outputs[index % 4],
             level ? 1 : 0));
     }
 

@@ -68,6 +68,7 @@ class Debuggee {
     /// Starts a stopped sequence, or stops it: a machine's own run and stop.
     virtual void switch_sequence(bool run) = 0;
     virtual std::vector<Variable> registers() = 0;
+    /// The terminal, whatever its name in the program says.
     virtual void set_input(unsigned index, bool level) = 0;
     virtual void set_output(unsigned index, bool level) = 0;
     /// Sets `text` with its unit; returns the resulting value.

@@ -71,18 +71,20 @@ class Judge {
             case Expression::Kind::counter_q:
                 return seen_.counter_ended;
             default:
-                return (seen_.inputs >> input_of(expression.name.text) & 1) != 0;
+                return input_of(expression.name.text);
         }
     }
 
     /// By its name, or IN3 and %IX0.3.
-    unsigned input_of(std::string_view name) const {
-        const auto& inputs = program_.symbols().inputs;
-        for (unsigned i = 0; i < inputs.size(); ++i) {
-            if (same_name(inputs[i], name)) return i;
+    bool input_of(std::string_view name) const {
+        const Symbols& symbols = program_.symbols();
+        for (unsigned i = 0; i < symbols.inputs.size(); ++i) {
+            if (same_name(symbols.inputs[i], name)) return is_on(i) != is_inverted(symbols, i);
         }
-        return name.empty() ? 0 : static_cast<unsigned>(name.back() - '0') & 7U;
+        return is_on(name.empty() ? 0 : static_cast<unsigned>(name.back() - '0') & 7U);
     }
+
+    bool is_on(unsigned input) const { return (seen_.inputs >> input & 1) != 0; }
 
     const Program& program_;
     const Seen& seen_;

@@ -80,7 +80,10 @@ std::string definition_text(const Program& program, const Definition& definition
             return reg != nullptr ? text + register_text(program, *reg) : text;
         }
         case Kind::input:
-            return fmt::format("input **{}** at {}", definition.name, definition.address);
+            return definition.is_inverted
+                       ? fmt::format("input **{}** at NOT {}: on while the wire is off", definition.name,
+                                     definition.address)
+                       : fmt::format("input **{}** at {}", definition.name, definition.address);
         case Kind::output:
             return fmt::format("output **{}** at {}", definition.name, definition.address);
         default:

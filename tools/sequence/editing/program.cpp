@@ -149,6 +149,11 @@ void Program::define() {
             if (definition.name_span == declared.name.span) definition.address = declared.address.text;
         }
     };
+    for (const ast::Variable& input : tree_.inputs) {
+        for (Definition& definition : definitions_) {
+            if (definition.name_span == input.name.span) definition.is_inverted = input.inverted.length != 0;
+        }
+    }
     for (const auto* variables : {&tree_.inputs, &tree_.outputs, &tree_.motor_variables})
         std::for_each(variables->begin(), variables->end(), note_address);
     std::for_each(tree_.set_points.begin(), tree_.set_points.end(), note_address);

@@ -37,6 +37,7 @@ struct Definition {
     Span name_span;
     Span whole;                ///< the block or declaration
     std::string_view address;  ///< for an input, output, name of VAR_MOTOR or set-point with AT, as written
+    bool is_inverted = false;  ///< an input at NOT its address
 };
 
 struct Reference {

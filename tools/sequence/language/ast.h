@@ -230,6 +230,7 @@ struct Variable {
     Name address;                          ///< IN0, %IX0.0, OUT1, P1, V_SOLL
     std::optional<Value> register_number;  ///< AT REG(33)
     std::optional<Value> value;
+    Span inverted = {};  ///< the NOT of AT NOT IN0; length 0: without
 };
 
 /// SET_POINT Name AT register := value RANGE low .. high STEP step;

@@ -164,6 +164,7 @@ void DeclarationParser::parse_variable(std::vector<ast::Variable>& variables, as
     }
     if (!in_.expect("AT", motor ? "and a register, as in AT P1" : "and an address, as in AT %IX0.0"))
         return in_.recover();
+    if (const Token before = in_.token(); !motor && in_.take("NOT")) variable.inverted = before.span;
     if (!parse_address(variable, motor)) return in_.recover();
     if (!motor && in_.take_symbol(":")) {
         if (!in_.take("BOOL") && !(in_.mend({"BOOL"}, "BOOL as the type") && in_.take("BOOL"))) {

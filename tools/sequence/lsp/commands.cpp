@@ -55,11 +55,13 @@ Json description_of(Workspace& workspace, const Document& document) {
     Json registers = Json::array();
     for (const MotorName& name : compiled.symbols.motor_names)
         registers.push_back({{"name", name.name}, {"register", name.reg}, {"number", name.number}});
-    return {{"program", compiled.symbols.program},
-            {"steps", step_lines(workspace, view, compiled)},
-            {"inputs", compiled.symbols.inputs},
-            {"outputs", compiled.symbols.outputs},
-            {"registers", registers},
+    Json inverted = Json::array();
+    for (std::size_t i = 0; i < compiled.symbols.inputs.size(); ++i) {
+        if (is_inverted(compiled.symbols, i)) inverted.push_back(i);
+    }
+    return {{"program", compiled.symbols.program}, {"steps", step_lines(workspace, view, compiled)},
+            {"inputs", compiled.symbols.inputs},   {"inverted_inputs", inverted},
+            {"outputs", compiled.symbols.outputs}, {"registers", registers},
             {"terms", compiled.origins.size()}};
 }
 

@@ -11,6 +11,7 @@ sim::Names names_of(const seqc::Symbols& symbols) {
         names.machine = {symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
     names.set_points = symbols.set_points;
     std::copy(symbols.inputs.begin(), symbols.inputs.end(), names.inputs.begin());
+    names.inverted_inputs = symbols.inverted_inputs;
     std::copy(symbols.outputs.begin(), symbols.outputs.end(), names.outputs.begin());
     for (const seqc::MotorName& named : symbols.motor_names) names.registers[named.name] = named.reg;
     for (const seqc::NamedTime& time : symbols.times) names.times[time.name] = time.milliseconds;

@@ -23,18 +23,19 @@ Truth where_error(const Truth& truth, bool value) {
     return value ? (truth & high) | ((truth & high) >> kStep) : (truth & ~high) | ((truth & ~high) << kStep);
 }
 
-std::string bit_name(std::size_t bit, const Symbols* symbols) {
+std::string bit_text(std::size_t bit, bool level, const Symbols* symbols) {
+    const std::string_view negation = level ? "" : "NOT ";
     switch (bit) {
         case kInPosBit:
-            return "INPOS";
+            return fmt::format("{}INPOS", negation);
         case kErrorBit:
-            return "ERROR";
+            return fmt::format("{}ERROR", negation);
         case kTimerZero:
-            return "TIMER.Q";
+            return fmt::format("{}TIMER.Q", negation);
         case kCounterZero:
-            return "COUNTER.Q";
+            return fmt::format("{}COUNTER.Q", negation);
         default:
-            return input_name(bit, symbols);
+            return input_text(bit, level, symbols);
     }
 }
 
@@ -42,8 +43,7 @@ std::string product_text(Product product, const Symbols* symbols) {
     std::string text;
     for (std::size_t bit = 0; bit < kBits; ++bit) {
         if (((product.care >> bit) & 1) == 0) continue;
-        const std::string name = bit_name(bit, symbols);
-        append(text, ((product.value >> bit) & 1) != 0 ? name : "NOT " + name, " AND ");
+        append(text, bit_text(bit, ((product.value >> bit) & 1) != 0, symbols), " AND ");
     }
     return text;
 }
@@ -94,8 +94,10 @@ std::string step_name(std::uint8_t number, const Symbols* symbols) {
     return fmt::format("step {}", number);
 }
 
-std::string input_name(std::size_t bit, const Symbols* symbols) {
-    return symbols != nullptr ? symbols->inputs[bit] : fmt::format("IN{}", bit);
+std::string input_text(std::size_t bit, bool level, const Symbols* symbols) {
+    const std::string name = symbols != nullptr ? symbols->inputs[bit] : fmt::format("IN{}", bit);
+    const bool holds = level != (symbols != nullptr && is_inverted(*symbols, bit));
+    return holds ? name : "NOT " + name;
 }
 
 std::string output_name(std::size_t bit, const Symbols* symbols) {

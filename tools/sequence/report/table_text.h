@@ -16,7 +16,9 @@ void append(std::string& text, std::string_view part, std::string_view separator
 
 /// "Travel", "POWER_UP", or "step 5".
 std::string step_name(std::uint8_t number, const Symbols* symbols);
-std::string input_name(std::size_t bit, const Symbols* symbols);
+/// "Start", or "NOT Start": the input's wire is on or off. "Estop" for one that is declared with AT NOT and
+/// whose wire is off.
+std::string input_text(std::size_t bit, bool level, const Symbols* symbols);
 std::string output_name(std::size_t bit, const Symbols* symbols);
 
 /// "Grip, Lamp"; empty for none.

@@ -33,7 +33,8 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
 }  // namespace
 
 verify::Names verify_names(const Symbols& symbols) {
-    verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
+    verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.inverted_inputs,
+                        symbols.copy_of};
     names.timer_is_limit = symbols.timer_is_limit;
     for (std::size_t step = 0; step < symbols.made_for.size(); ++step) {
         if (symbols.made_for[step].starts_with("helper step")) names.helpers |= std::uint64_t{1} << step;

@@ -275,6 +275,14 @@ SymbolFile read(const Node& root) {
     if (root.has("times")) read_times(root["times"], file);
     Different different;
     read_signals(root["inputs"], file.symbols.inputs, different);
+    if (root.has("inverted_inputs")) {
+        for (const Node& input : root["inverted_inputs"].list()) {
+            const auto bit = static_cast<std::size_t>(input.whole(0, 5));
+            if (same_name(file.symbols.inputs[bit], fmt::format("IN{}", bit)))
+                input.fail(fmt::format("the name IN{} is the input itself and cannot be inverted", bit));
+            file.symbols.inverted_inputs |= static_cast<std::uint8_t>(1U << bit);
+        }
+    }
     read_signals(root["outputs"], file.symbols.outputs, different);
     read_registers(root["registers"], file.symbols, different);
     if (root.has("units")) read_units(root["units"], file.symbols);

@@ -115,7 +115,7 @@ std::string write_symbols(const Compilation& compilation, const Sources& sources
     const Symbols& symbols = compilation.symbols;
     const Places places(sources);
     Json file = {{"format", kSymbolsFormat},
-                 {"version", kSymbolsVersion},
+                 {"version", symbols.inverted_inputs != 0 ? kSymbolsVersion : kPlainSymbolsVersion},
                  {"program", symbols.program},
                  {"source", sources.program().name},
                  {"motor", motor_name(symbols)}};
@@ -132,6 +132,9 @@ std::string write_symbols(const Compilation& compilation, const Sources& sources
     for (const NamedTime& time : symbols.times)
         file["times"].push_back({{"name", time.name}, {"ms", time.milliseconds}});
     file["inputs"] = symbols.inputs;
+    for (std::size_t i = 0; i < symbols.inputs.size(); ++i) {
+        if (is_inverted(symbols, i)) file["inverted_inputs"].push_back(i);
+    }
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);
     if (!symbols.units.empty()) file["units"] = units_of(symbols);

@@ -30,7 +30,8 @@ struct Value {
         set_point,  ///< in force, in its steps
     };
     Kind kind = Kind::input;
-    unsigned index = 0;  ///< of an input, an output or a set-point
+    unsigned index = 0;     ///< of an input, an output or a set-point
+    bool inverted = false;  ///< an input whose terminal is off when it is 1
 
     bool is_bit() const;
     double of(const Snapshot& snapshot) const;

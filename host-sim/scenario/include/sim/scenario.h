@@ -164,6 +164,7 @@ struct FollowRule {
     Time after{0};
     Time back{0};  ///< delay when the condition becomes false
     int line = 0;
+    bool inverted = false;  ///< its terminal is off while the condition holds
 };
 
 struct Expectation {

@@ -58,6 +58,7 @@ struct MachineUnit {
 struct Names {
     std::array<std::string, kInputs> inputs;
     std::array<std::string, kOutputs> outputs;
+    std::uint8_t inverted_inputs = 0;  ///< a bit for each input whose name holds while its terminal is off
     std::map<std::uint8_t, std::string> steps;
     std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` includes them
     std::map<std::string, std::vector<std::uint8_t>> groups;  ///< meaning of `step in Name`
@@ -72,6 +73,11 @@ struct Names {
     bool free_pins = false;    ///< the motor's user interface is its pulse input, not FastMAC
 
     std::string input(unsigned index) const;
+    /// The levels of the terminals as what the names of the inputs say.
+    std::uint8_t named(std::uint8_t levels) const {
+        return static_cast<std::uint8_t>(levels ^ inverted_inputs);
+    }
+    bool is_inverted(unsigned index) const { return (inverted_inputs >> index & 1) != 0; }
     std::string output(unsigned index) const;
     std::string step(std::uint8_t number) const;
 };

@@ -44,6 +44,10 @@ class Names {
     explicit Names(const seqc::SymbolFile& symbols) : symbols_(symbols) {}
 
     std::string input(unsigned index) const;
+    /// What is true while the wire is on: "START", "NOT ESTOP".
+    std::string wire(unsigned index) const;
+    /// The levels of the inputs as what their names say.
+    std::uint32_t named(std::uint32_t inputs) const;
     std::string output(unsigned index) const;
     /// "3 FILL", "3".
     std::string step(unsigned number) const;
@@ -65,7 +69,7 @@ class Names {
     std::optional<seqc::SymbolFile> symbols_;
 };
 
-/// "START, IN2"; "none".
+/// "START, IN2": of inputs those whose names are true; "none".
 std::string signals_text(std::uint32_t bits, unsigned count, const Names& names, bool are_inputs);
 
 /// The terms that were true in the last scan, from 0.

@@ -66,7 +66,9 @@ struct Symbols {
     std::uint64_t timer_is_limit = 0;
     std::vector<StepGroup> groups;
     std::vector<NamedTime> times;
-    std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
+    std::array<std::string, 6> inputs;  ///< as declared, else IN0..IN5
+    /// A bit for each input whose name holds while its wire is off: AT NOT.
+    std::uint8_t inverted_inputs = 0;
     std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
     std::vector<MotorName> motor_names;  ///< in source order
     set_points::Record set_points;       ///< values that a user may change
@@ -74,6 +76,15 @@ struct Symbols {
     std::map<std::uint8_t, std::string> units;
     bool operator==(const Symbols&) const = default;
 };
+
+inline bool is_inverted(const Symbols& symbols, std::size_t input) {
+    return ((symbols.inverted_inputs >> input) & 1U) != 0;
+}
+
+/// What holds while the wire of the input is on: "Start", "NOT Estop".
+inline std::string wire_name(const Symbols& symbols, std::size_t input) {
+    return (is_inverted(symbols, input) ? "NOT " : "") + symbols.inputs[input];
+}
 
 /// The step as it was written: for a copy that the compiler made (for an edge, blinking, an output that is
 /// set) its original. A step of a later CALL is its own original.

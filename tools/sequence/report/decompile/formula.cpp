@@ -81,7 +81,8 @@ std::string text_of(Product product, const BitNames& names) {
     std::string text;
     for (std::size_t bit = 0; bit < kBits; ++bit) {
         if (!product.cares(bit)) continue;
-        text += (text.empty() ? "" : " AND ") + std::string(product.wants(bit) ? "" : "NOT ") + names[bit];
+        const bool holds = product.wants(bit) != ((names.inverted >> bit & 1) != 0);
+        text += (text.empty() ? "" : " AND ") + std::string(holds ? "" : "NOT ") + names.name[bit];
     }
     return text.empty() ? "TRUE" : text;
 }
@@ -117,19 +118,20 @@ Formula formula_of(const Truth& need, const Truth& allowed, const BitNames& name
     if (!in_error || !in_no_error) {
         const Products products = cover(mirrored(need, in_error), mirrored(allowed, in_error));
         Formula formula = formula_of(products, names);
-        return in_error ? with_error(std::move(formula), names[kErrorBit], products.size()) : formula;
+        return in_error ? with_error(std::move(formula), names.name[kErrorBit], products.size()) : formula;
     }
     const Truth both = mirrored(need, false) | mirrored(need, true);
     const Truth allowed_in_both = mirrored(allowed, false) & mirrored(allowed, true);
     if ((both & ~allowed_in_both).none()) {
         const Products products = cover(both, allowed_in_both);
-        return with_error(formula_of(products, names), "ANY " + names[kErrorBit], products.size());
+        return with_error(formula_of(products, names), "ANY " + names.name[kErrorBit], products.size());
     }
     const Products products = cover(need, allowed);
     Formula formula = formula_of(products, names);
     const bool names_error =
         std::any_of(products.begin(), products.end(), [](const Product& p) { return p.cares(kErrorBit); });
-    return names_error ? formula : with_error(std::move(formula), "ANY " + names[kErrorBit], products.size());
+    return names_error ? formula
+                       : with_error(std::move(formula), "ANY " + names.name[kErrorBit], products.size());
 }
 
 }  // namespace nplc::seqc

@@ -17,7 +17,10 @@ struct Formula {
 };
 
 /// The names of a case's bits.
-using BitNames = std::array<std::string, kBits>;
+struct BitNames {
+    std::array<std::string, kBits> name;
+    unsigned inverted = 0;  ///< a bit for each input whose name holds while the bit is off
+};
 
 /// A short formula that is true in all of `need` and in nothing outside of `allowed`, which contains `need`.
 /// Not guaranteed to be the shortest. `need` is not empty.

@@ -89,6 +89,10 @@ Naming naming_of(const Symbols* given, const std::string& program, registers::Mo
     if (given != nullptr) {
         keep_addresses(symbols.inputs, given->inputs, "IN", naming.declared_inputs);
         keep_addresses(symbols.outputs, given->outputs, "OUT", naming.declared_outputs);
+        for (std::size_t i = 0; i < symbols.inputs.size(); ++i) {
+            if (naming.declared_inputs[i] && is_inverted(*given, i))
+                symbols.inverted_inputs |= static_cast<std::uint8_t>(1U << i);
+        }
     }
     if (given != nullptr) {
         symbols.scale = given->scale;
@@ -98,11 +102,12 @@ Naming naming_of(const Symbols* given, const std::string& program, registers::Mo
             if (naming.registers.try_emplace(one.number, one.name).second) signals.take(one.name);
         }
     }
-    std::copy(symbols.inputs.begin(), symbols.inputs.end(), naming.bits.begin());
-    naming.bits[kInPosBit] = "INPOS";
-    naming.bits[kErrorBit] = "ERROR";
-    naming.bits[kTimerZero] = "TIMER.Q";
-    naming.bits[kCounterZero] = "COUNTER.Q";
+    std::copy(symbols.inputs.begin(), symbols.inputs.end(), naming.bits.name.begin());
+    naming.bits.inverted = symbols.inverted_inputs;
+    naming.bits.name[kInPosBit] = "INPOS";
+    naming.bits.name[kErrorBit] = "ERROR";
+    naming.bits.name[kTimerZero] = "TIMER.Q";
+    naming.bits.name[kCounterZero] = "COUNTER.Q";
     return naming;
 }
 

@@ -17,8 +17,8 @@ constexpr std::size_t kMostSwaps = 40;
 constexpr std::array kStayings = {Staying::undoes, Staying::mixed, Staying::is_said};
 
 const BitNames& plain_names() {
-    static const BitNames names = {"IN0", "IN1",   "IN2",   "IN3",     "IN4",
-                                   "IN5", "INPOS", "ERROR", "TIMER.Q", "COUNTER.Q"};
+    static const BitNames names = {
+        {"IN0", "IN1", "IN2", "IN3", "IN4", "IN5", "INPOS", "ERROR", "TIMER.Q", "COUNTER.Q"}};
     return names;
 }
 

@@ -99,18 +99,21 @@ class Writer {
                 return !term.is_flex && ((term.fast.outputs >> bit) & 1) != 0;
             });
         };
-        write_block("VAR_INPUT", names().inputs, context_.naming.declared_inputs, "IN", cares);
+        write_block("VAR_INPUT", names().inputs, context_.naming.declared_inputs, "IN", cares,
+                    names().inverted_inputs);
         write_block("VAR_OUTPUT", names().outputs, context_.naming.declared_outputs, "OUT", writes);
         end_passage(Kind::names);
     }
 
     template <std::size_t N, class Used>
     void write_block(const char* word, const std::array<std::string, N>& signals,
-                     const std::array<bool, N>& declared, const char* address, const Used& used) {
+                     const std::array<bool, N>& declared, const char* address, const Used& used,
+                     unsigned inverted = 0) {
         std::vector<std::string> lines;
         for (std::size_t i = 0; i < N; ++i) {
             if (declared[i] && used(i))
-                lines.push_back(fmt::format("{} AT {}{} : BOOL;", signals[i], address, i));
+                lines.push_back(fmt::format("{} AT {}{}{} : BOOL;", signals[i],
+                                            (inverted >> i & 1) != 0 ? "NOT " : "", address, i));
         }
         write_variables(word, lines);
     }

@@ -137,8 +137,7 @@ class Builder {
     }
 
     void bundle_input(std::size_t literal, std::vector<GraphModel::Note>& notes) {
-        const std::string name = input_name(literal / 2, symbols_);
-        const std::string condition = literal % 2 == 0 ? name : "NOT " + name;
+        const std::string condition = input_text(literal / 2, literal % 2 == 0, symbols_);
         Bundles bundles;
         for_each_step([&](std::uint8_t step) {
             for (const GraphWays::Way& way : ways_[step]) {
@@ -263,6 +262,9 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
                                model.terms, model.terms == 1 ? "" : "s", model.crc32);
     if (symbols != nullptr) {
         add_terminals("IN", symbols->inputs, model);
+        for (auto& [terminal, name] : model.terminals) {
+            if (is_inverted(*symbols, static_cast<std::size_t>(terminal.back() - '0'))) name = "NOT " + name;
+        }
         add_terminals("OUT", symbols->outputs, model);
         for (const set_points::SetPoint& point : symbols->set_points.values)
             model.set_points.push_back(fmt::format("Set-point {}: {}", point.name, text_of(point)));

@@ -25,6 +25,7 @@ struct SignalNames {
     std::vector<std::string> inputs{};   ///< from IN0 on; empty: without a name
     std::vector<std::string> outputs{};  ///< from OUT0 on
     std::map<std::uint8_t, std::string> steps{};
+    std::uint8_t inverted_inputs = 0;  ///< a bit for each input whose name holds while its terminal is off
 };
 SignalNames signals_in(std::string_view text);
 bool is_same(const faces::Scaling& a, const faces::Scaling& b);

@@ -5,7 +5,7 @@ import { commandInWords, duration } from "./words";
 
 export function conditionInWords(axis: Axis, c: Condition): string {
   switch (c.kind) {
-    case "input": return c.wanted ? axis.inputName(c.bit) : `NOT ${axis.inputName(c.bit)}`;
+    case "input": return axis.inputText(c.bit, c.wanted);
     case "inpos": return c.wanted ? "INPOS" : "NOT INPOS";
     case "error": return c.wanted ? "ERROR" : "no ERROR";
     case "timer": return "timer has run down";

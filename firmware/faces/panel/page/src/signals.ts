@@ -44,7 +44,7 @@ export class Signals {
   }
 
   update(axis: Axis): void {
-    this.inputs.forEach((row, bit) => this.show(row, axis.inputName(bit), `IN${bit}`, axis.inputs >> bit & 1, forceOf(axis.forcedInputs, axis.forcedInputLevels, bit),
+    this.inputs.forEach((row, bit) => this.show(row, axis.inputText(bit, true), `IN${bit}`, axis.inputs >> bit & 1, forceOf(axis.forcedInputs, axis.forcedInputLevels, bit),
       (axis.terminals >> bit & 1) !== (axis.inputs >> bit & 1) ? `terminal ${axis.terminals >> bit & 1}` : ""));
     this.outputs.forEach((row, bit) => this.show(row, axis.outputName(bit), `OUT${bit}`, axis.outputs >> bit & 1, forceOf(axis.forcedOutputs, axis.forcedOutputLevels, bit),
       (axis.written >> bit & 1) !== (axis.outputs >> bit & 1) ? `sequence wrote ${axis.written >> bit & 1}` : ""));

@@ -11,6 +11,7 @@ export interface Symbols {
   scale?: { revolutions: number; length: number; unit: string };
   steps?: (NamedStep & { line: number; outputs: number })[];
   inputs?: string[];
+  inverted_inputs?: number[]; // their names are true while the wire is off
   outputs?: string[];
   registers?: { name: string; register: string; number: number }[];
 }
@@ -30,6 +31,7 @@ export function symbolsOf(given: unknown): Symbols {
     list(from[name]).map(object).filter((one) => typeof one?.number === "number" && typeof one.name === "string") as Record<string, unknown>[];
   return {
     ...(from as Symbols), program: text("program"), source: text("source"), motor: text("motor"), inputs: texts("inputs"), outputs: texts("outputs"),
+    inverted_inputs: list(from.inverted_inputs).filter((one): one is number => typeof one === "number"),
     scale: isScale ? { unit: scale!.unit as string, revolutions: Number(scale!.revolutions), length: Number(scale!.length) } : undefined,
     steps: named("steps").map((one) => ({ ...one, outputs: Number(one.outputs) || 0, made_for: typeof one.made_for === "string" ? one.made_for : undefined,
       copy_of: typeof one.copy_of === "number" ? one.copy_of : undefined })) as Symbols["steps"],
@@ -219,6 +221,11 @@ export class Axis {
     return this.program?.symbols.steps?.find((s) => s.number === step)?.made_for ?? "";
   }
   inputName(bit: number): string { return this.program?.symbols.inputs?.[bit] || `IN${bit}`; }
+  /** What is true while the wire has this level: `Start`, `NOT Start`, and of an inverted input the other way round. */
+  inputText(bit: number, level: boolean): string {
+    const isInverted = this.program?.symbols.inverted_inputs?.includes(bit) ?? false;
+    return level === isInverted ? `NOT ${this.inputName(bit)}` : this.inputName(bit);
+  }
   outputName(bit: number): string { return this.program?.symbols.outputs?.[bit] || `OUT${bit}`; }
   outputNames(bits: number): string[] {
     return [0, 1, 2, 3].filter((bit) => bits & (1 << bit)).map((bit) => this.outputName(bit));

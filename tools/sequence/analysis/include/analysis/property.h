@@ -18,6 +18,8 @@ struct Names {
     std::array<std::string, 63> steps;
     std::array<std::string, 6> inputs;
     std::array<std::string, 4> outputs;
+    /// A bit for each input whose name holds while the bit of the image is off.
+    std::uint8_t inverted_inputs = 0;
     /// The step of which it is a copy: `step = Name` includes the copies.
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
     /// A bit for each step that the compiler made for what a branch does a scan later, asking nothing again.

@@ -9,6 +9,8 @@
 namespace nplc::verify {
 
 std::string input_name(const Names& names, unsigned input);
+/// Whether the input of this name is on: of an inverted one the bit of the image is off.
+bool input_holds(const Names& names, unsigned input, std::uint8_t image);
 std::string output_name(const Names& names, unsigned output);
 std::string step_name(const Names& names, std::uint8_t step);
 /// The inputs that are on; - for none.
