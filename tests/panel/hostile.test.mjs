@@ -125,7 +125,7 @@ test("one client more than there are places takes the quietest one's; a stop is 
 test("beyond this machine it is not served without a password and a token", () => {
   const run = spawnSync(join(programs, "nanoplc-sim"), ["run", pick, "--realtime", "--panel", "0.0.0.0:0"], { encoding: "utf8" });
   assert.equal(run.status, 2);
-  assert.match(run.stderr, /configure a password and a token/);
+  assert.match(run.stderr, /a simulator has no password: write 127\.0\.0\.1:0/);
   for (const wrong of ["127.0.0.1", "127.0.0.1:99999", ":80", "nowhere:80"]) {
     const bad = spawnSync(join(programs, "nanoplc-sim"), ["run", pick, "--realtime", "--panel", wrong], { encoding: "utf8" });
     assert.equal(bad.status, 2, wrong);
