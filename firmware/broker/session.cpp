@@ -68,6 +68,9 @@ std::string reason_of(int code) {
     const int cause = errno;
     // The library names it in its header alone.
     if (code == MOSQ_ERR_KEEPALIVE) return "the broker is silent, for longer than the keep-alive time";
+    // The broker's alert can be lost with the connection; the next attempt may hear it.
+    if (code == MOSQ_ERR_ERRNO && cause == EPROTO)
+        return "the broker has ended TLS; its log says why, most often it wants or refuses certificate_file";
     if (code == MOSQ_ERR_ERRNO) return std::strerror(cause);
     const std::string text = ::mosquitto_strerror(code);
     const bool is_known = text != ::mosquitto_strerror(MOSQ_ERR_UNKNOWN);
