@@ -139,7 +139,7 @@ test("recipes are saved, loaded, deleted, and say what they would bring", () =>
     await hasText(page, "#recipe-title", "Delete recipe Short");
     await page.click("#recipe-do");
     await event(watcher, "recipe deleted by the panel: 2");
-    assert.equal(await page.locator("#recipe option").count(), 1);
+    await page.waitForFunction(() => document.querySelectorAll("#recipe option").length === 1);
     await page.click("#recipe-save");
     await page.fill("#recipe-name", "Größe");
     await page.click("#recipe-do");
@@ -176,7 +176,7 @@ test("files of recipes go out and in as nanoctl's do, whole or not at all", () =
       await hasText(page, "#import-problem", "nothing was imported");
       await page.click("#import-cancel");
     }
-    assert.equal(await page.locator("#recipe option").count(), 1);
+    await page.waitForFunction(() => document.querySelectorAll("#recipe option").length === 1);
     const downloads = [];
     for (const format of ["csv", "toml"]) {
       const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#recipe-${format}`)]);
