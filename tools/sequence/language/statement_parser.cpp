@@ -73,7 +73,7 @@ bool StatementParser::parse(Statement& statement) {
 
 bool StatementParser::parse_target(ast::Name& name) {
     if (take_digits_first(in_, name)) return true;
-    if (in_.at("STEP") && in_.is_word_at(1)) {
+    if (same_name(in_.token().text, "STEP") && in_.is_word_at(1)) {
         in_.report().add("E010", in_.token().span, "NEXT takes the step's name alone",
                          fmt::format("write NEXT := {};", in_.token(1).text));
         in_.skip();
