@@ -271,14 +271,27 @@ std::uint16_t ModbusSlave::input_word(std::uint16_t address, base::Instant now) 
     return 0;
 }
 
+namespace {
+
+/// Whether `place` lies between the two words of a value.
+bool splits(unsigned place) {
+    for (const Row& row : kRows) {
+        if (row.address >= kFirstOfTwo && place == row.address + 1U) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 ModbusSlave::Need ModbusSlave::read(base::Instant now) {
     static constexpr std::uint8_t kEnds[] = {map::kResetError, map::kDiscretes, map::kLatePolls + 2,
                                              map::kRecipe};
     constexpr std::uint16_t kNothing = map::kImageAge + 1;  // gap between two rows
     const unsigned end = request_.address + request_.count;
-    const bool has_gap =
-        request_.space == Space::input_register && request_.address <= kNothing && end > kNothing;
-    if (has_gap || end > kEnds[static_cast<std::size_t>(request_.space)])
+    const bool is_input = request_.space == Space::input_register;
+    const bool has_gap = is_input && request_.address <= kNothing && end > kNothing;
+    const bool has_half = is_input && (splits(request_.address) || splits(end));
+    if (has_gap || has_half || end > kEnds[static_cast<std::size_t>(request_.space)])
         return refuse_with(Exception::illegal_address);
     begin_answer(request_.function);
     if (request_.space == Space::coil || request_.space == Space::discrete_input) {

@@ -179,6 +179,19 @@ TEST_F(ModbusUserPort, WrongFunctionsAndLengthsAreExceptions) {
     EXPECT_EQ(answer(frame(kUnit, {4, 0xFF, 0xFF, 0, 2})), frame(kUnit, {0x84, 2}));
 }
 
+// A master that reads one word would put old and new halves together.
+TEST_F(ModbusUserPort, HalfOfATwoWordValueIsRefused) {
+    const Frame refused = frame(kUnit, {0x84, 2});
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 18, 0, 1})), refused);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 19, 0, 1})), refused);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 19, 0, 2})), refused);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 14, 0, 5})), refused);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 48, 0, 1})), refused);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 20, 0, 2})).size(), 9U);
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 41, 0, 2})).size(), 9U) << "two values of a word each";
+    EXPECT_EQ(answer(frame(kUnit, {4, 0, 15, 0, 5})).size(), 15U);
+}
+
 TEST_F(ModbusUserPort, OfTwoRequestsWithoutAPauseBothAreCarriedOutAndTheLastAnswered) {
     start();
     const Frame said = answer(frame(kUnit, kStops[0]) + frame(kUnit, kReadStatus));
