@@ -78,4 +78,7 @@ CLASSES = {
     "host-sim/midi_module/include/sim/midi_motion.h:MidiMotion": Large(
         "profile, encoder and shaft of one drive, which correct each other at every tick", methods=44, members=21
     ),
+    "tools/sequence/language/token_stream.h:TokenStream": Large(
+        "all that the parsers ask of the tokens, mostly one line each", methods=41
+    ),
 }

@@ -170,27 +170,14 @@ bool refuse_reckoning(TokenStream& in, const ast::Statement& statement) {
     return true;
 }
 
-bool is_declared_output(const TokenStream& in, std::string_view name) {
-    const std::vector<Token>& tokens = in.tokens();
-    for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
-        if (!same_name(tokens[i].text, name) || !is_one_of(tokens[i + 1], {"AT"})) continue;
-        const std::string address = upper(tokens[i + 2].text);
-        if (address.starts_with("OUT") || address.starts_with("%Q")) return true;
-    }
-    return false;
-}
-
 bool refuse_level(TokenStream& in, const ast::Statement& statement) {
     const std::string_view name = statement.name.text;
     const Token level = in.token(1);
-    const bool is_output = is_declared_output(in, name);
+    const bool is_output = in.declared().has_output(name);
     bool is_on = is_one_of(level, {"ON", "TRUE"}) || (is_output && level.text == "1");
     bool is_off = is_one_of(level, {"OFF", "FALSE"}) || (is_output && level.text == "0");
     const bool is_alone = in.is_symbol_at(2, ";");
-    const std::vector<Token>& tokens = in.tokens();
-    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
-        if (is_one_of(tokens[i], {"CONST"}) && same_name(tokens[i + 1].text, level.text)) return false;
-    }
+    if (in.declared().has_constant(level.text)) return false;
     is_on = is_on && is_alone;
     is_off = is_off && is_alone;
     if (!is_on && !is_off && !is_output) return false;

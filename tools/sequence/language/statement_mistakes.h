@@ -9,9 +9,6 @@
 
 namespace nplc::seqc {
 
-/// Whether the program declares the name AT one of OUT0 .. OUT3.
-bool is_declared_output(const TokenStream& in, std::string_view name);
-
 /// Mends a misspelt first word of a statement. `end_words` are also allowed there.
 void mend_statement(TokenStream& in, const Notes& notes, std::vector<std::string_view> end_words);
 

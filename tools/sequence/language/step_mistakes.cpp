@@ -100,7 +100,7 @@ bool refuse_out_tail(TokenStream& in) {
             "THEN NEXT := Step; END_IF in it");
         return true;
     }
-    const bool names_another = same_line && in.is_word_at(0) && is_declared_output(in, in.token().text);
+    const bool names_another = same_line && in.is_word_at(0) && in.declared().has_output(in.token().text);
     if (is_one_of(in.token(), {"AND", "OR"}) || names_another) {
         in.report().add("E010", in.token().span, "names of outputs are separated by commas",
                         "write OUT Ready, Lamp;");

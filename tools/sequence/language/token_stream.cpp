@@ -21,6 +21,26 @@ TokenStream::TokenStream(std::string_view source, std::vector<Token> tokens, Rep
       report_(report),
       file_{.tokens = std::move(tokens), .comment_is_open = report.has("E002")} {}
 
+DeclaredNames::DeclaredNames(const std::vector<Token>& tokens) {
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        if (is_one_of(tokens[i], {"CONST"})) constants_.push_back(upper(tokens[i + 1].text));
+        if (i + 2 == tokens.size() || !is_one_of(tokens[i + 1], {"AT"})) continue;
+        const std::string address = upper(tokens[i + 2].text);
+        if (address.starts_with("OUT") || address.starts_with("%Q"))
+            outputs_.push_back(upper(tokens[i].text));
+    }
+    std::sort(constants_.begin(), constants_.end());
+    std::sort(outputs_.begin(), outputs_.end());
+}
+
+bool DeclaredNames::has_constant(std::string_view name) const {
+    return std::binary_search(constants_.begin(), constants_.end(), upper(name));
+}
+
+bool DeclaredNames::has_output(std::string_view name) const {
+    return std::binary_search(outputs_.begin(), outputs_.end(), upper(name));
+}
+
 bool TokenStream::is_word_at(std::size_t ahead) const {
     return token(ahead).kind == TokenKind::identifier && !is_reserved(token(ahead).text);
 }

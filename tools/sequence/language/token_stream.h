@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,18 @@ std::string shown(const Token& t);
 inline ast::Name name_of(const Token& t) {
     return {t.text, t.span};
 }
+
+/// What a file declares, before and behind the place where it is asked for.
+class DeclaredNames {
+  public:
+    explicit DeclaredNames(const std::vector<Token>& tokens);
+    bool has_constant(std::string_view name) const;
+    bool has_output(std::string_view name) const;
+
+  private:
+    std::vector<std::string> constants_;  // in capital letters, sorted
+    std::vector<std::string> outputs_;
+};
 
 /// The tokens of a program, taken one after another; what is wrong with them is reported, and skipped or
 /// mended.
@@ -117,6 +130,10 @@ class TokenStream {
     std::string_view source() const { return source_; }
     std::string_view text_of(Span span) const { return source_.substr(span.offset, span.length); }
     const std::vector<Token>& tokens() const { return file_.tokens; }
+    const DeclaredNames& declared() const {
+        if (!declared_) declared_.emplace(file_.tokens);
+        return *declared_;
+    }
     std::vector<Token> take_tokens() { return std::move(file_.tokens); }
 
     /// One file's tokens and how far they are taken.
@@ -127,7 +144,10 @@ class TokenStream {
         bool end_was_reported = false;
     };
     /// Continues with another file, and returns the one before.
-    File exchange(File file) { return std::exchange(file_, std::move(file)); }
+    File exchange(File file) {
+        declared_.reset();
+        return std::exchange(file_, std::move(file));
+    }
 
   private:
     static constexpr int kDeepest = 100;
@@ -135,6 +155,7 @@ class TokenStream {
     std::string_view source_;
     Report& report_;
     File file_;
+    mutable std::optional<DeclaredNames> declared_;  // of this file, once something asks for it
     int depth_ = 0;
     Expected* expected_ = nullptr;
 };
