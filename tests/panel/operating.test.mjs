@@ -223,6 +223,28 @@ test("an upload is compared and asked about, then stored, made active, and its n
     assert.deepEqual(readFileSync(await download.path()), readFileSync(table));
   }));
 
+test("who does not operate renames nothing: the upload is refused, and its names with it", () =>
+  withPages(1, async (machine, page) => {
+    const table = path("running.bin");
+    execFileSync(join(programs, "seqc"), ["build", pick, "-o", table]);
+    const symbols = JSON.parse(readFileSync(path("running.sym"), "utf8"));
+    symbols.program = "Renamed";
+    await operate(page, machine.token);
+    const other = new Client(machine.url);
+    await other.opened;
+    await other.ask({ do: "login", secret: machine.token });
+    const request = { do: "upload", table: readFileSync(table).toString("base64"), symbols };
+    const refused = await other.ask(request);
+    assert.equal(refused.result, "refused");
+    assert.match(refused.text, /another client operates/);
+    await page.reload();
+    await hasText(page, "#program", "PickAndPlace");
+    await other.ask({ do: "seat", take_over: true });
+    assert.equal((await other.ask(request)).result, "done");
+    await hasText(page, "#program", "Renamed");
+    other.close();
+  }));
+
 test("a force that the safe state overrules is shown as it was asked for", () =>
   withPages(1, async (machine, page) => {
     await operate(page, machine.token);

@@ -58,6 +58,7 @@ class Hub final : public WebHandler {
     bool join(ClientId client, Session& session, std::size_t axis);
     std::optional<std::size_t> axis_of(const Request& request) const;
     void serve_desk(ClientId client, Session& session, std::size_t index, base::Instant now);
+    void keep_names(ClientId client, AxisPart& part, std::size_t index, base::Instant now);
     void go_on_with_upload(ClientId client, Session& session, std::size_t index, base::Instant now);
     void finish_upload(ClientId client, Session& session, std::size_t index);
     void answer(ClientId client, const Request& request, std::string_view result, const std::string& text);

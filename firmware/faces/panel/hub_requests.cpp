@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/crc32.h"
 #include "encoding.h"
@@ -173,6 +174,7 @@ void Hub::serve_desk(ClientId client, Session& session, std::size_t index, base:
     while (const auto completion = part.desk->take(now)) {
         if (part.upload && completion->id == part.upload_id) {
             part.upload->ended(*completion, now);
+            if (completion->result == faces::Result::done) keep_names(client, part, index, now);
             continue;
         }
         if (part.set_points && part.set_points->is_of(completion->id)) {
@@ -201,18 +203,30 @@ void Hub::begin_upload(ClientId client, Session& session, const Request& request
     if (!record)
         return answer(client, request, "refused",
                       "the set-points of its names do not fit the table; build both anew");
+    part.names.reset();
     if (const auto symbols = request.body.find("symbols");
-        symbols != request.body.end() && symbols->is_object() && symbols_ != nullptr) {
-        const std::string why =
-            symbols_->keep(axis, crc_of_table(*table),
+        symbols != request.body.end() && symbols->is_object() && symbols_ != nullptr)
+        part.names.emplace(crc_of_table(*table),
                            symbols->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-        if (!why.empty()) return answer(client, request, "refused", why);
-    }
     table->insert(table->end(), record->begin(), record->end());
     part.upload.emplace(std::move(*table),
                         faces::Upload::Afterwards{request.flag("activate"), request.flag("run")},
                         *request.id);
     part.told_bytes = 0;
+}
+
+/// Once the upload has begun, which takes the seat: before, a client that may not operate would rename the
+/// table that runs.
+void Hub::keep_names(ClientId client, AxisPart& part, std::size_t index, base::Instant now) {
+    if (!part.names) return;
+    const auto [crc, text] = *std::exchange(part.names, std::nullopt);
+    const std::string why = symbols_->keep(index, crc, text);
+    if (why.empty()) return;
+    static_cast<void>(part.desk->submit(faces::Command::of(own::Command::upload_abort, now)));
+    const Json message = {
+        {"t", "answer"}, {"id", part.upload->request()}, {"result", "refused"}, {"text", why}};
+    server_->send(client, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    part.upload.reset();
 }
 
 void Hub::go_on_with_upload(ClientId client, Session& session, std::size_t index, base::Instant now) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "axis_feed.h"
@@ -27,6 +28,7 @@ struct AxisPart {
     std::optional<faces::Upload> upload{};
     std::uint32_t upload_id = 0;  ///< of its command in progress
     std::size_t told_bytes = 0;
+    std::optional<std::pair<std::uint32_t, std::string>> names{};  ///< of the upload's table, by its CRC
     std::optional<SetPointWork> set_points{};
 
     std::unique_ptr<faces::AxisImage> image{};  ///< as last sent
