@@ -20,16 +20,10 @@ std::string input_note(const MidiModule& module, action::DriveInput input) {
     return {};
 }
 
-struct OfModule {
+struct OfModule : SupplyNotes {
     const MidiModule& module;
-    bool powered;
 
-    std::string operator()(const action::PowerMotor& power) const { return power_note(powered, power.on); }
-    std::string operator()(const action::FailMotor&) const { return needs_power(); }
-    std::string operator()(const action::BreakEncoder&) const { return needs_power(); }
-    std::string operator()(const action::MotorSupply&) const { return needs_power(); }
-    std::string operator()(const action::MotorTemperature&) const { return needs_power(); }
-    std::string operator()(const action::Log&) const { return std::string(kNoTimeline); }
+    using SupplyNotes::operator();
     std::string operator()(const action::Cancel&) const {
         return "it drops what a scenario's rules have planned, and a module here has none";
     }
@@ -44,15 +38,12 @@ struct OfModule {
     std::string operator()(const Other&) const {
         return {};
     }
-
-  private:
-    std::string needs_power() const { return powered ? std::string() : std::string(kHasNone); }
 };
 
 }  // namespace
 
 std::string without_effect(const MidiModule& module, bool powered, const Action& action) {
-    return std::visit(OfModule{module, powered}, action.what);
+    return std::visit(OfModule{{powered}, module}, action.what);
 }
 
 }  // namespace nplc::sim

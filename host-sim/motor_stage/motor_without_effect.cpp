@@ -52,23 +52,17 @@ std::string brake_note(const MacMotor& motor) {
     return fmt::format("the brake is open while the motor is in {}", mode_of(motor));
 }
 
-struct OfMac {
+struct OfMac : SupplyNotes {
     const MacMotor& motor;
-    bool powered;
 
-    std::string operator()(const action::PowerMotor& power) const { return power_note(powered, power.on); }
-    std::string operator()(const action::FailMotor&) const { return needs_power(); }
-    std::string operator()(const action::BreakEncoder&) const { return needs_power(); }
+    using SupplyNotes::operator();
     std::string operator()(const action::MotorPulses& pulses) const {
         return powered ? pulses_note(motor, pulses) : needs_power();
     }
     std::string operator()(const action::MotorBrake& brake) const {
         return powered && brake.torque != 0 ? brake_note(motor) : std::string();
     }
-    std::string operator()(const action::MotorSupply&) const { return needs_power(); }
-    std::string operator()(const action::MotorTemperature&) const { return needs_power(); }
     std::string operator()(const action::MotorAnalogue&) const { return needs_power(); }
-    std::string operator()(const action::Log&) const { return std::string(kNoTimeline); }
     std::string operator()(const action::FreeMotor&) const {
         const Load& load = motor.plant().load();
         return load.low_stop || load.high_stop ? std::string() : "there is no stop";
@@ -77,9 +71,6 @@ struct OfMac {
     std::string operator()(const Other&) const {
         return {};
     }
-
-  private:
-    std::string needs_power() const { return powered ? std::string() : std::string(kHasNone); }
 };
 
 struct NameOf {
@@ -128,7 +119,7 @@ std::string_view name_of(const Action& action) {
 }
 
 std::string without_effect(const MacMotor& motor, bool powered, const Action& action) {
-    return std::visit(OfMac{motor, powered}, action.what);
+    return std::visit(OfMac{{powered}, motor}, action.what);
 }
 
 }  // namespace nplc::sim

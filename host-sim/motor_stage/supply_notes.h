@@ -1,17 +1,28 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+
+#include "sim/scenario.h"
 
 namespace nplc::sim {
 
-inline constexpr std::string_view kNoTimeline = "there is no timeline here";
-inline constexpr std::string_view kHasPower = "it has its supply already";
-inline constexpr std::string_view kHasNone = "it has no supply (motor power off)";
+/// What a motor of any kind does not follow for lack of its supply, or of a timeline.
+struct SupplyNotes {
+    bool powered;
 
-inline std::string power_note(bool powered, bool on) {
-    if (powered != on) return {};
-    return std::string(on ? kHasPower : kHasNone);
-}
+    std::string operator()(const action::PowerMotor& power) const {
+        if (powered != power.on) return {};
+        return power.on ? "it has its supply already" : needs_power();
+    }
+    std::string operator()(const action::FailMotor&) const { return needs_power(); }
+    std::string operator()(const action::BreakEncoder&) const { return needs_power(); }
+    std::string operator()(const action::MotorSupply&) const { return needs_power(); }
+    std::string operator()(const action::MotorTemperature&) const { return needs_power(); }
+    std::string operator()(const action::Log&) const { return "there is no timeline here"; }
+
+    std::string needs_power() const {
+        return powered ? std::string() : std::string("it has no supply (motor power off)");
+    }
+};
 
 }  // namespace nplc::sim
