@@ -66,17 +66,33 @@ std::optional<std::uint16_t> report_no_time(Span span, Report& report, TimeFor u
     return std::uint16_t{1};
 }
 
+/// Of a unit that others write; 0: none.
+double unit_in_ms(std::string_view unit) {
+    constexpr std::pair<std::string_view, double> kUnits[] = {
+        {"min", 60'000},  {"sec", 1000},     {"secs", 1000},     {"sek", 1000},
+        {"second", 1000}, {"seconds", 1000}, {"sekunden", 1000}, {"msec", 1},
+        {"msek", 1},      {"millis", 1},     {"milliseconds", 1}};
+    for (const auto& [name, ms] : kUnits) {
+        if (same_name(name, unit)) return ms;
+    }
+    return 0;
+}
+
 /// Of a number without a unit, which is most likely meant in milliseconds or, if it is small, in seconds.
 std::string in_milliseconds(const ast::Value& value) {
     const bool is_plain = value.kind == ast::Value::Kind::literal && value.unit.text.empty() &&
                           !value.is_raw && value.number >= 1 && value.number <= kLongest &&
                           std::floor(value.number) == value.number;
-    constexpr std::string_view kSeconds[] = {"sec", "secs", "sek", "second", "seconds", "sekunden"};
-    constexpr std::string_view kMilliseconds[] = {"msec", "msek", "millis", "milliseconds"};
-    const auto is_unit = [&](std::string_view unit) { return same_name(unit, value.unit.text); };
-    if (std::ranges::any_of(kSeconds, is_unit)) return fmt::format("write {:.9g} s", value.number);
-    if (std::ranges::any_of(kMilliseconds, is_unit)) return fmt::format("write {:.9g} ms", value.number);
-    if (is_unit("Hz") && value.number > 0)
+    const auto fits = [](double ms) { return ms >= 1 && ms <= kLongest; };
+    const double unit = unit_in_ms(value.unit.text);
+    const double ms = value.number * unit;
+    if (fits(ms))
+        return unit == 1 ? fmt::format("write {:.9g} ms", ms) : fmt::format("write {:.9g} s", ms / 1000);
+    if (ms > kLongest)
+        return "write it in s, up to 65 s; for longer times let the counter count repetitions of a shorter "
+               "one";
+    if (same_name(value.unit.text, "us")) return "write 1 ms or more";
+    if (same_name(value.unit.text, "Hz") && value.number > 0 && fits(500 / value.number))
         return fmt::format("write T#{:.0f}ms, half of the period", 500 / value.number);
     if (!is_plain) return "write it as T#500ms";
     const std::string seconds = value.number <= kLongest / 1000.0
@@ -92,19 +108,12 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
     const bool seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
         const bool minutes = same_name(value.unit.text, "min");
-        const double in_seconds = value.number * 60;
-        const bool fits = minutes && in_seconds <= kLongest / 1000.0;
         const bool is_short = same_name(value.unit.text, "us");
         report.add("E043", value.span,
                    minutes    ? "times are in ms and s"
                    : is_short ? "the timer counts milliseconds"
                               : "the timer needs a time",
-                   fits ? fmt::format("write {:.9g} s", in_seconds)
-                   : minutes
-                       ? "write it in s, up to 65 s; for longer times let the counter count repetitions "
-                         "of a shorter one"
-                   : is_short ? "write 1 ms or more"
-                              : in_milliseconds(value));
+                   in_milliseconds(value));
         return std::nullopt;
     }
     if (seconds) ms *= 1000;

@@ -70,7 +70,10 @@ std::optional<std::uint8_t> StepNames::number_of(const ast::Name& name,
     const bool is_sequence = std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end();
     const bool is_inner = std::any_of(inner_steps_.begin(), inner_steps_.end(),
                                       [&](const auto& inner) { return same_name(inner.first, name.text); });
+    const bool begins_with_digit = help.empty() && name.text.front() >= '0' && name.text.front() <= '9';
     if (help.empty() || is_sequence || is_inner || is_group(name.text)) help = help_for(name.text);
+    if (begins_with_digit)
+        help = fmt::format("a name begins with a letter: STEP S{0}: and NEXT := S{0};", name.text);
     report_.add("E021", name.span,
                 fmt::format("there is no {} '{}'", groups.empty() ? "step" : "step or group", name.text),
                 help);

@@ -29,28 +29,10 @@ bool is_one(const Token& t) {
     return same_name(t.text, "TRUE") || same_name(t.text, "ON") || t.text == "1";
 }
 
-/// Whether the name is declared at such an address: `letters` are those of inputs or of outputs.
-bool is_declared_at(const TokenStream& in, std::string_view name, std::string_view letters,
-                    std::string_view located) {
-    const std::vector<Token>& tokens = in.tokens();
-    for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
-        if (!same_name(tokens[i].text, name) || !is_one_of(tokens[i + 1], {"AT"})) continue;
-        const std::string address = upper(tokens[i + 2].text);
-        if (address.starts_with(letters) || address.starts_with(located)) return true;
-    }
-    return false;
-}
-
-bool is_register_name(std::string_view name) {
-    const std::string word = upper(name);
-    return word.ends_with("_IST") || word.ends_with("_SOLL") || word.ends_with("_REG") ||
-           word.ends_with("_STAT");
-}
-
 std::string help_of_level(const TokenStream& in, const Token& first, std::string_view left, bool is_on) {
-    if (is_register_name(first.text) || is_declared_at(in, first.text, "P", "V"))
+    if (looks_like_register(first.text) || in.declared().has_register(first.text))
         return std::string(kRegister);
-    if (is_declared_at(in, first.text, "OUT", "%Q"))
+    if (in.declared().has_output(first.text))
         return "an output cannot be tested: it is on in the steps that name it, and the step is known";
     return fmt::format("write {}{}", is_on ? "" : "NOT ", left);
 }
@@ -139,6 +121,13 @@ bool mend_no_error(TokenStream& in, ast::Expression& result) {
 
 }  // namespace
 
+bool looks_like_register(std::string_view name) {
+    constexpr std::string_view kEnds[] = {"_IST", "_SOLL", "_REG", "_STAT", "_BITS", "_SETUP", "_MODE"};
+    const std::string word = upper(name);
+    return std::any_of(std::begin(kEnds), std::end(kEnds),
+                       [&](std::string_view end) { return word.ends_with(end); });
+}
+
 bool at_comparison(const TokenStream& in) {
     return in.at_symbol("=") || in.at_symbol(":=") || in.at_symbol("<") || in.at_symbol(">") || in.at("IS");
 }
@@ -148,6 +137,7 @@ bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first,
     const std::string left(in.source().substr(first.span.offset, in.span_since(first).length));
     const bool differs = in.at_symbol("<") && in.is_symbol_at(1, ">");
     const bool is_above = in.at_symbol(">") && !in.is_symbol_at(1, "=");
+    const bool is_below = in.at_symbol("<") && !in.is_symbol_at(1, "=") && !differs;
     const bool is_equal = !differs && !in.at_symbol("<") && !in.at_symbol(">");
     while (at_comparison(in)) in.skip();
     if (!in.take_symbol("-")) in.take_symbol("+");
@@ -161,15 +151,16 @@ bool refuse_comparison(TokenStream& in, ValueParser& values, const Token& first,
         values.parse_unit(unit);
     }
     const bool truth = is_one(right) || is_zero(right);
-    const bool joins_inputs = (differs || is_equal) && is_declared_at(in, first.text, "IN", "%I") &&
-                              is_declared_at(in, right.text, "IN", "%I");
+    const bool joins_inputs =
+        (differs || is_equal) && in.declared().has_input(first.text) && in.declared().has_input(right.text);
     result = {};
     if (is_told) return true;
-    in.report().add("E014", in.span_since(first), "a condition cannot compare: it is true or false",
-                    truth          ? help_of_level(in, first, left, is_above || is_one(right) != differs)
-                    : joins_inputs ? fmt::format("write {}{} XOR {}{}", differs ? "" : "NOT (", left,
-                                                 right.text, differs ? "" : ")")
-                                   : std::string(kSeen));
+    in.report().add(
+        "E014", in.span_since(first), "a condition cannot compare: it is true or false",
+        truth ? help_of_level(in, first, left, is_above || (!is_below && is_one(right) != differs))
+        : joins_inputs
+            ? fmt::format("write {}{} XOR {}{}", differs ? "" : "NOT (", left, right.text, differs ? "" : ")")
+            : std::string(kSeen));
     return true;
 }
 

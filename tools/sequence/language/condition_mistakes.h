@@ -6,6 +6,9 @@
 
 namespace nplc::seqc {
 
+/// By how the manuals name them: V_SOLL, MODE_REG, CNTRL_BITS.
+bool looks_like_register(std::string_view name);
+
 /// What is no condition, although other languages have it: one message says what is written here instead.
 /// False if there is nothing of the kind; else parsing continues behind it, `result` being a constant.
 

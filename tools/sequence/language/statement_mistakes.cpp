@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "language/condition_mistakes.h"
 #include "language/foreign_words.h"
 #include "language/names.h"
 #include "language/reserved_words.h"
@@ -174,24 +175,25 @@ bool refuse_level(TokenStream& in, const ast::Statement& statement) {
     const std::string_view name = statement.name.text;
     const Token level = in.token(1);
     const bool is_output = in.declared().has_output(name);
-    bool is_on = is_one_of(level, {"ON", "TRUE"}) || (is_output && level.text == "1");
-    bool is_off = is_one_of(level, {"OFF", "FALSE"}) || (is_output && level.text == "0");
-    const bool is_alone = in.is_symbol_at(2, ";");
     if (in.declared().has_constant(level.text)) return false;
-    is_on = is_on && is_alone;
-    is_off = is_off && is_alone;
+    const bool is_alone = in.is_symbol_at(2, ";");
+    const bool is_on = is_alone && (is_one_of(level, {"ON", "TRUE"}) || (is_output && level.text == "1"));
+    const bool is_off = is_alone && (is_one_of(level, {"OFF", "FALSE"}) || (is_output && level.text == "0"));
     if (!is_on && !is_off && !is_output) return false;
+    const bool is_register = !is_output && (looks_like_register(name) || in.declared().has_register(name));
     in.skip();
     const Token first = in.token();
     while (!in.at_symbol(";") && !in.at_boundary() && !in.at("NEXT")) in.skip();
     const std::uint32_t begin = statement.name.span.offset;
     const Span value{first.span.offset, in.last().span.offset + in.last().span.length - first.span.offset};
     constexpr std::uint32_t kMostShown = 60;
-    const bool is_short = value.length <= kMostShown && in.position() > 0;
+    const bool is_short = value.length <= kMostShown;
     in.report().add(
         "E010", {begin, value.offset + value.length - begin},
         "':=' gives a register a number: it switches nothing",
-        is_on ? fmt::format("write OUT {0}; in the step where it is on, or SET {0}; until RESET {0};", name)
+        is_register
+            ? fmt::format("write the number, such as {} := 100; ON and OFF are of outputs: OUT Lamp;", name)
+        : is_on ? fmt::format("write OUT {0}; in the step where it is on, or SET {0}; until RESET {0};", name)
         : is_off   ? fmt::format("an output that no OUT of the step names is off; RESET {}; ends a SET", name)
         : is_short ? fmt::format("write OUT {} WHEN {};", name, in.text_of(value))
                    : fmt::format("write OUT {} WHEN condition;", name));

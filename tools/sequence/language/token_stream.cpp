@@ -24,21 +24,27 @@ TokenStream::TokenStream(std::string_view source, std::vector<Token> tokens, Rep
 DeclaredNames::DeclaredNames(const std::vector<Token>& tokens) {
     for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
         if (is_one_of(tokens[i], {"CONST"})) constants_.push_back(upper(tokens[i + 1].text));
-        if (i + 2 == tokens.size() || !is_one_of(tokens[i + 1], {"AT"})) continue;
-        const std::string address = upper(tokens[i + 2].text);
-        if (address.starts_with("OUT") || address.starts_with("%Q"))
-            outputs_.push_back(upper(tokens[i].text));
+        if (is_one_of(tokens[i + 1], {"AT"})) add_located(tokens, i);
     }
-    std::sort(constants_.begin(), constants_.end());
-    std::sort(outputs_.begin(), outputs_.end());
+    for (Sorted* names : {&constants_, &inputs_, &outputs_, &registers_})
+        std::sort(names->begin(), names->end());
 }
 
-bool DeclaredNames::has_constant(std::string_view name) const {
-    return std::binary_search(constants_.begin(), constants_.end(), upper(name));
+/// NAME AT IN2, NAME AT NOT %IX0.2, NAME AT V1; not STEP NAME AT 5.
+void DeclaredNames::add_located(const std::vector<Token>& tokens, std::size_t at) {
+    const std::size_t place = at + 2 < tokens.size() && is_one_of(tokens[at + 2], {"NOT"}) ? at + 3 : at + 2;
+    if (place >= tokens.size() || tokens[place].kind == TokenKind::number) return;
+    const std::string address = upper(tokens[place].text);
+    const auto is_terminal = [&](std::string_view word, std::string_view located) {
+        return address.starts_with(located) ||
+               (address.size() == word.size() + 1 && address.starts_with(word) && address.back() <= '9');
+    };
+    Sorted& names = is_terminal("IN", "%I") ? inputs_ : is_terminal("OUT", "%Q") ? outputs_ : registers_;
+    names.push_back(upper(tokens[at].text));
 }
 
-bool DeclaredNames::has_output(std::string_view name) const {
-    return std::binary_search(outputs_.begin(), outputs_.end(), upper(name));
+bool DeclaredNames::holds(const Sorted& names, std::string_view name) {
+    return std::binary_search(names.begin(), names.end(), upper(name));
 }
 
 bool TokenStream::is_word_at(std::size_t ahead) const {

@@ -30,12 +30,21 @@ inline ast::Name name_of(const Token& t) {
 class DeclaredNames {
   public:
     explicit DeclaredNames(const std::vector<Token>& tokens);
-    bool has_constant(std::string_view name) const;
-    bool has_output(std::string_view name) const;
+    bool has_constant(std::string_view name) const { return holds(constants_, name); }
+    bool has_input(std::string_view name) const { return holds(inputs_, name); }
+    bool has_output(std::string_view name) const { return holds(outputs_, name); }
+    /// A set-point at a register, too.
+    bool has_register(std::string_view name) const { return holds(registers_, name); }
 
   private:
-    std::vector<std::string> constants_;  // in capital letters, sorted
-    std::vector<std::string> outputs_;
+    using Sorted = std::vector<std::string>;  // in capital letters
+    static bool holds(const Sorted& names, std::string_view name);
+    void add_located(const std::vector<Token>& tokens, std::size_t at);
+
+    Sorted constants_;
+    Sorted inputs_;
+    Sorted outputs_;
+    Sorted registers_;
 };
 
 /// The tokens of a program, taken one after another; what is wrong with them is reported, and skipped or
