@@ -17,9 +17,8 @@ class Walk {
   public:
     using Memory = std::uint16_t;
 
-    /// With `excluded`, excluded courses are not followed; with `distances` to where it goes too, from each
-    /// node at most as many scans as there can be, the shortest courses there come first, and kFar leads
-    /// nowhere.
+    /// With `excluded`, excluded courses are not followed. With `distances`, a lower bound of the scans from
+    /// each node to the goal, the shortest courses there come first, and nodes at kFar are not followed.
     explicit Walk(const Explorer& explorer, Excluded* excluded = nullptr,
                   const std::vector<std::uint32_t>* distances = nullptr)
         : explorer_(explorer),

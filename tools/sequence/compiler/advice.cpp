@@ -64,12 +64,6 @@ class Arrivals {
         if (!is_new && !to_place) found->second = nullptr;
     }
 
-    const StepPlan* step_numbered(std::uint8_t number) const {
-        const auto found = std::find_if(plan_.steps.begin(), plan_.steps.end(),
-                                        [&](const StepPlan& step) { return step.number == number; });
-        return found == plan_.steps.end() ? nullptr : &*found;
-    }
-
     static bool tests_arrival(const StepPlan& step) {
         return std::any_of(step.rules.begin(), step.rules.end(),
                            [](const Rule& rule) { return depends_on(rule.when, kInPosBit); });
@@ -106,15 +100,16 @@ class Arrivals {
         }
         if (by_timer == nullptr || (by_timer->when & ordinary) != (truth_of_bit(kTimerZero) & ordinary))
             return;
-        const StepPlan* to = step_numbered(*by_timer->action.next);
+        const StepPlan* to = step_numbered(plan_, *by_timer->action.next);
         if (to == nullptr || tests_arrival(*to) || sets_motion(*by_timer) || !acts(step, *by_timer, *to))
             return;
         if (by_timer->condition.length == 0 || !said_.insert(by_timer->condition.offset).second) return;
         report_
             .add("W038", by_timer->condition,
                  "the end of a time is taken for an arrival here: the motor may not be where it was sent",
-                 "write IF INPOS WITHIN T#5s THEN .. ELSE NEXT := Fault; or ALLOW W038 BECAUSE 'reason'; in "
-                 "the step")
+                 "write IF INPOS WITHIN T#5s THEN .. ELSE NEXT := Fault; END_IF, or ALLOW W038 BECAUSE "
+                 "'reason'; "
+                 "in the step")
             .notes.push_back({sent->second->span, "the move begins here"});
     }
 

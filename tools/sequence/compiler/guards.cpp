@@ -63,7 +63,7 @@ class MotionWalk {
     MotionWalk(const ast::Program& program, const Plan& plan, std::optional<std::uint8_t> fault,
                Report& report)
         : program_(program), plan_(plan), report_(report) {
-        if (const StepPlan* step = fault ? step_numbered(*fault) : nullptr) fault_ = step->span;
+        if (const StepPlan* step = fault ? step_numbered(plan_, *fault) : nullptr) fault_ = step->span;
     }
 
     /// An ERROR stops the motor by itself (001 §3.2.35).
@@ -90,7 +90,7 @@ class MotionWalk {
     }
 
     void judge(const Rule& rule, MotionState after) {
-        const StepPlan* to = leaves(*step_, rule) ? step_numbered(*rule.action.next) : nullptr;
+        const StepPlan* to = leaves(*step_, rule) ? step_numbered(plan_, *rule.action.next) : nullptr;
         if (to == nullptr) return;
         for (const Send& send : rule.action.sends) apply(after, send);
         const StepPlan* target = behind_helper(*to);
@@ -166,7 +166,7 @@ class MotionWalk {
             return std::any_of(by.action.sends.begin(), by.action.sends.end(),
                                [&](const Send& send) { return test(motion_effect_of(send)); });
         };
-        const StepPlan* to = rule.action.next ? step_numbered(*rule.action.next) : nullptr;
+        const StepPlan* to = rule.action.next ? step_numbered(plan_, *rule.action.next) : nullptr;
         return sends(rule) ||
                (to != nullptr && to->is_helper && std::any_of(to->rules.begin(), to->rules.end(), sends));
     }
@@ -183,7 +183,7 @@ class MotionWalk {
     /// The arrival leads there: W038 and W045 judge that.
     bool arrives_at(Span target) const {
         return any_rule(*step_, [&](const Rule& rule) {
-            const StepPlan* to = step_numbered(*rule.action.next);
+            const StepPlan* to = step_numbered(plan_, *rule.action.next);
             bool arrives = false;
             for_each_part(rule,
                           [&](const Truth& when, Span) { arrives = arrives || needs(when, kInPosBit); });
@@ -239,15 +239,9 @@ class MotionWalk {
         });
     }
 
-    const StepPlan* step_numbered(std::uint8_t number) const {
-        const auto found = std::find_if(plan_.steps.begin(), plan_.steps.end(),
-                                        [&](const StepPlan& step) { return step.number == number; });
-        return found == plan_.steps.end() ? nullptr : &*found;
-    }
-
     const StepPlan* behind_helper(const StepPlan& step) const {
         if (!step.is_helper || step.rules.empty() || !step.rules.front().action.next) return &step;
-        const StepPlan* next = step_numbered(*step.rules.front().action.next);
+        const StepPlan* next = step_numbered(plan_, *step.rules.front().action.next);
         return next == nullptr ? &step : next;
     }
 
@@ -278,7 +272,7 @@ class MotionWalk {
         Truth left = ~truth_of_bit(kErrorBit);
         for (const Rule& rule : step.rules) {
             const StepPlan* next =
-                depth > 0 && leaves(step, rule) ? step_numbered(*rule.action.next) : nullptr;
+                depth > 0 && leaves(step, rule) ? step_numbered(plan_, *rule.action.next) : nullptr;
             if (is_ordered(rule) || (next != nullptr && goes_on_with_order(*next, depth - 1)))
                 left &= ~rule.when;
         }

@@ -79,17 +79,11 @@ class OnWalk {
                (program_.on_error && program_.on_error->span == condition && condition.length != 0);
     }
 
-    const StepPlan* step_numbered(std::uint8_t number) const {
-        const auto found = std::find_if(plan_.steps.begin(), plan_.steps.end(),
-                                        [&](const StepPlan& step) { return step.number == number; });
-        return found == plan_.steps.end() ? nullptr : &*found;
-    }
-
     /// Up to where it is SET again; a further guard or ERROR is no way.
     bool is_reset_behind(std::uint8_t number, std::size_t output) const {
         std::set<std::uint8_t> seen = {number};
         for (std::deque<std::uint8_t> open = {number}; !open.empty(); open.pop_front()) {
-            const StepPlan* step = step_numbered(open.front());
+            const StepPlan* step = step_numbered(plan_, open.front());
             if (step == nullptr) continue;
             for (const Rule& rule : step->rules) {
                 bool is_way = false;

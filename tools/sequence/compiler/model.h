@@ -154,6 +154,14 @@ struct Plan {
     std::deque<std::string> names;  ///< of generated steps
 };
 
+/// Null if there is none of this number.
+inline const StepPlan* step_numbered(const Plan& plan, std::uint8_t number) {
+    for (const StepPlan& step : plan.steps) {
+        if (step.number == number) return &step;
+    }
+    return nullptr;
+}
+
 /// In program order.
 template <class Visit>
 void for_each_send(const Plan& plan, const Visit& visit) {

@@ -200,7 +200,8 @@ class Oversights {
     void find_fault() {
         for_each_rule([&](const StepPlan& step, const Rule& rule) {
             const bool on_error = (rule.when & truth_of_bit(kErrorBit)).any();
-            if (on_error && leaves(step, rule) && !step.own_error) fault_ = step_numbered(*rule.action.next);
+            if (on_error && leaves(step, rule) && !step.own_error)
+                fault_ = step_numbered(plan_, *rule.action.next);
         });
     }
 
@@ -267,12 +268,6 @@ class Oversights {
                     "write IF ANY ERROR AND R_TRIG(Ack) THEN RESET_ERROR; NEXT := POWER_UP; END_IF");
     }
 
-    const StepPlan* step_numbered(std::uint8_t number) const {
-        const auto found = std::find_if(plan_.steps.begin(), plan_.steps.end(),
-                                        [&](const StepPlan& step) { return step.number == number; });
-        return found == plan_.steps.end() ? nullptr : &*found;
-    }
-
     /// Also if another condition leads to the same step.
     static const RulePart* timer_exit(const StepPlan& step) {
         for (const Rule& rule : step.rules) {
@@ -291,7 +286,7 @@ class Oversights {
             if (!leaves(from, rule) || rule.action.timer || (rule.when & ~truth_of_bit(kTimerZero)).none())
                 return;
             const RulePart* limit = timer_exit(from);
-            const StepPlan* to = step_numbered(*rule.action.next);
+            const StepPlan* to = step_numbered(plan_, *rule.action.next);
             const RulePart* dwell = to == nullptr ? nullptr : timer_exit(*to);
             if (limit == nullptr || dwell == nullptr || limit->action.next == dwell->action.next) return;
             const bool waits_only = std::none_of(to->rules.begin(), to->rules.end(), [&](const Rule& other) {

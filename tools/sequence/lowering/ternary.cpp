@@ -31,7 +31,7 @@ Ternary::Ternary(std::size_t variables, std::size_t zeros) : inputs_(variables -
         for (std::size_t above = 0; above < points_.size(); above += std::size_t{2} << v)
             blocks_.push_back({points_[above] + 2 * steps_[v], steps_[v]});
     }
-    sort_by_size();
+    if (variables <= kMostSorted) sort_by_size();
     if (variables > kMostSmall) return;
     cases_.resize(size);
     for (std::size_t point = 0; point < points_.size(); ++point)

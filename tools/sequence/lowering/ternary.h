@@ -18,6 +18,7 @@ using SmallSet = std::uint32_t;
 class Ternary {
   public:
     static constexpr std::size_t kMostVariables = kBits;
+    static constexpr std::size_t kMostSorted = 7;
     static constexpr std::size_t kMostSmall = 5;  ///< variables, for `cases` and `around`
 
     /// The last `zeros` variables may be the zero flags of timer and counter: no term can test for "not
@@ -29,7 +30,8 @@ class Ternary {
     const Product& operator[](std::size_t index) const { return cubes_[index]; }
     /// The cube of a single point, by the point's number.
     std::size_t point(std::size_t number) const { return points_[number]; }
-    /// By number of variables required, then by which, then by their values.
+    /// By number of variables required, then by which, then by their values. Empty over more than kMostSorted
+    /// variables, which the conditions of terms do not have.
     const std::vector<std::uint16_t>& largest_first() const { return largest_first_; }
 
     SmallSet cases(std::size_t index) const { return cases_[index]; }

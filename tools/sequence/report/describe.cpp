@@ -12,26 +12,10 @@ namespace {
 
 using sequencer::FastStatement;
 
-std::string key_bit_text(unsigned bit, bool level, const Symbols* symbols) {
-    const std::string_view negation = level ? "" : "NOT ";
-    switch (bit) {
-        case table::kInPosBit:
-            return fmt::format("{}INPOS", negation);
-        case table::kErrorBit:
-            return fmt::format("{}ERROR", negation);
-        case table::kTimerZero:
-            return fmt::format("{}TIMER.Q", negation);
-        case table::kCounterZero:
-            return fmt::format("{}COUNTER.Q", negation);
-        default:
-            return input_text(bit, level, symbols);
-    }
-}
-
 std::string term_condition_text(sequencer::TermView term, const Symbols* symbols) {
     std::string text;
     for (const table::Compared& compared : table::compared_by(term))
-        append(text, key_bit_text(compared.key_bit, compared.level, symbols), " AND ");
+        append(text, bit_text(compared.key_bit, compared.level, symbols), " AND ");
     return text;
 }
 

@@ -23,22 +23,6 @@ Truth where_error(const Truth& truth, bool value) {
     return value ? (truth & high) | ((truth & high) >> kStep) : (truth & ~high) | ((truth & ~high) << kStep);
 }
 
-std::string bit_text(std::size_t bit, bool level, const Symbols* symbols) {
-    const std::string_view negation = level ? "" : "NOT ";
-    switch (bit) {
-        case kInPosBit:
-            return fmt::format("{}INPOS", negation);
-        case kErrorBit:
-            return fmt::format("{}ERROR", negation);
-        case kTimerZero:
-            return fmt::format("{}TIMER.Q", negation);
-        case kCounterZero:
-            return fmt::format("{}COUNTER.Q", negation);
-        default:
-            return input_text(bit, level, symbols);
-    }
-}
-
 std::string product_text(Product product, const Symbols* symbols) {
     std::string text;
     for (std::size_t bit = 0; bit < kBits; ++bit) {
@@ -61,6 +45,13 @@ std::string after(std::string_view word, const std::string& rest) {
 }
 
 }  // namespace
+
+std::string bit_text(std::size_t bit, bool level, const Symbols* symbols) {
+    constexpr std::array<std::string_view, kBits - kInPosBit> kNames = {"INPOS", "ERROR", "TIMER.Q",
+                                                                        "COUNTER.Q"};
+    return bit < kInPosBit ? input_text(bit, level, symbols)
+                           : fmt::format("{}{}", level ? "" : "NOT ", kNames[bit - kInPosBit]);
+}
 
 std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols) {
     const Truth good = where_error(need, false);

@@ -19,6 +19,8 @@ std::string step_name(std::uint8_t number, const Symbols* symbols);
 /// "Start", or "NOT Start": the input's wire is on or off. "Estop" for one that is declared with AT NOT and
 /// whose wire is off.
 std::string input_text(std::size_t bit, bool level, const Symbols* symbols);
+/// The same of any bit that a term can test: "NOT TIMER.Q".
+std::string bit_text(std::size_t bit, bool level, const Symbols* symbols);
 std::string output_name(std::size_t bit, const Symbols* symbols);
 
 /// "Grip, Lamp"; empty for none.

@@ -79,8 +79,9 @@ class Drawing {
     explicit Drawing(const GraphModel& model) : model_(model) {}
 
     std::string text() const {
-        std::string text = fmt::format("digraph {} {{\n  graph [{}, label=<{}{}>];", quoted(model_.title),
-                                       kPage, markup(model_.footer), legend());
+        const std::string_view legend = legend_of(model_);
+        std::string text = fmt::format("digraph {} {{\n  graph [{}, label=<{}{}{}>];", quoted(model_.title),
+                                       kPage, markup(model_.footer), legend.empty() ? "" : "; ", legend);
         text += kStyle;
         text += fmt::format(
             "  subgraph cluster_table {{\n    graph [peripheries=0, fontsize=16, labelloc=t, "
@@ -93,15 +94,6 @@ class Drawing {
     }
 
   private:
-    const char* legend() const {
-        const bool has_order = std::any_of(model_.boxes.begin(), model_.boxes.end(),
-                                           [](const GraphModel::Box& box) { return box.ways.size() > 1; });
-        if (!has_order) return "";
-        return model_.notes.empty()
-                   ? "; in a step the first condition that holds counts"
-                   : "; notes come before a step's own conditions; of these the first that holds counts";
-    }
-
     /// Motor, scale and terminals, a line each.
     std::string machine() const {
         std::string text;

@@ -94,13 +94,7 @@ Lines heading_of(const GraphModel& model, double width) {
 Lines footer_of(const GraphModel& model, double width) {
     Lines lines;
     std::vector<std::string> parts{model.footer};
-    const bool has_order = std::any_of(model.boxes.begin(), model.boxes.end(),
-                                       [](const GraphModel::Box& box) { return box.ways.size() > 1; });
-    if (has_order)
-        parts.push_back(
-            model.notes.empty()
-                ? "in a step the first condition that holds counts"
-                : "notes come before a step's own conditions; of these the first that holds counts");
+    if (const std::string_view legend = legend_of(model); !legend.empty()) parts.emplace_back(legend);
     lines.add(TextKind::footer, parts, "; ", width);
     return lines;
 }

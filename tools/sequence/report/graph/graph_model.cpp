@@ -261,10 +261,9 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s",
                                model.terms, model.terms == 1 ? "" : "s", model.crc32);
     if (symbols != nullptr) {
-        add_terminals("IN", symbols->inputs, model);
-        for (auto& [terminal, name] : model.terminals) {
-            if (is_inverted(*symbols, static_cast<std::size_t>(terminal.back() - '0'))) name = "NOT " + name;
-        }
+        std::array<std::string, 6> wires;
+        for (std::size_t i = 0; i < wires.size(); ++i) wires[i] = wire_name(*symbols, i);
+        add_terminals("IN", wires, model);
         add_terminals("OUT", symbols->outputs, model);
         for (const set_points::SetPoint& point : symbols->set_points.values)
             model.set_points.push_back(fmt::format("Set-point {}: {}", point.name, text_of(point)));
@@ -273,6 +272,15 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     }
     Builder(machine, symbols, source).build(model);
     return model;
+}
+
+std::string_view legend_of(const GraphModel& model) {
+    const bool has_order = std::any_of(model.boxes.begin(), model.boxes.end(),
+                                       [](const GraphModel::Box& box) { return box.ways.size() > 1; });
+    if (!has_order) return {};
+    return model.notes.empty()
+               ? "in a step the first condition that holds counts"
+               : "notes come before a step's own conditions; of these the first that holds counts";
 }
 
 }  // namespace nplc::seqc

@@ -65,4 +65,7 @@ std::string numbers_text(const GraphModel::Steps& steps);
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
                           const std::string& title, const GraphSource& source = {});
 
+/// For the foot: which of several conditions counts; empty if no step has more than one.
+std::string_view legend_of(const GraphModel& model);
+
 }  // namespace nplc::seqc
