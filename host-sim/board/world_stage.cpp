@@ -80,34 +80,35 @@ bool World::shaft_is_blocked() const {
 
 void World::gateway(action::Gateway what) {
     wake();
+    gateway::Gateway& sequence = controller_->sequence();
+    const auto tell = [this](std::string_view word, const base::Status& begun) {
+        if (!begun)
+            log(fmt::format("gateway {}: refused: {}", word,
+                            registers::gateway::describe(gateway::result_of(begun.error()))));
+    };
     switch (what) {
         case action::Gateway::stop:
-            if (this->gateway().run_state() == gateway::RunState::stopped)
+            if (sequence.run_state() == gateway::RunState::stopped)
                 log("gateway stop: the sequence is stopped already");
-            controller_->sequence().stop(instant());
+            sequence.stop(instant());
             follow_orders();
             return;
         case action::Gateway::run:
-            if (const base::Status begun = controller_->sequence().run(); !begun)
-                log(fmt::format("gateway run: refused: {}",
-                                registers::gateway::describe(gateway::result_of(begun.error()))));
-            return;
+            return tell("run", sequence.run());
         case action::Gateway::restart:
             start_gateway(gateway::StartCause::power_up);
             return;
         case action::Gateway::safe:
-            controller_->sequence().enter_safe_state_by_command(instant());
+            sequence.enter_safe_state_by_command(instant());
             follow_orders();
             return;
         case action::Gateway::hold:
-            static_cast<void>(controller_->sequence().hold());
+            if (!sequence.hold()) log("gateway hold: refused: the sequence does not run");
             return;
         case action::Gateway::step:
-            static_cast<void>(controller_->sequence().step_once());
-            return;
+            return tell("step", sequence.step_once());
         case action::Gateway::scan:
-            static_cast<void>(controller_->sequence().scan_once());
-            return;
+            return tell("scan", sequence.scan_once());
     }
 }
 

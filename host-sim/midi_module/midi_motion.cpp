@@ -10,8 +10,6 @@ namespace {
 
 namespace midi = registers::midi;
 
-constexpr std::uint8_t kHardwareStops = 1;
-constexpr std::uint8_t kSoftwareStops = 8;
 constexpr std::int64_t kDragStep = std::int64_t{midi::kTicksPerSecond} / MidiShaft::kDragSteps;
 
 /// 31 bits (003 §IV).
@@ -234,11 +232,11 @@ void MidiMotion::turn_shaft(std::int32_t increments) {
 /// 003 §IV: each end-stop ends motion in its own direction only. R: a software stop acts beyond its position.
 bool MidiMotion::blocked(int direction) {
     std::uint32_t by = 0;
-    if ((eeprom_.values.stops & kHardwareStops) != 0) {
+    if ((eeprom_.values.stops & MidiMemory::kHardwareStops) != 0) {
         if (direction > 0 && inputs_[MidiInput::upper_stop]) by |= midi::kAtUpperInput;
         if (direction < 0 && inputs_[MidiInput::lower_stop]) by |= midi::kAtLowerInput;
     }
-    if ((eeprom_.values.stops & kSoftwareStops) != 0) {
+    if ((eeprom_.values.stops & MidiMemory::kSoftwareStops) != 0) {
         if (direction > 0 && position_ > eeprom_.values.upper_stop) by |= midi::kAtUpperStop;
         if (direction < 0 && position_ < eeprom_.values.lower_stop) by |= midi::kAtLowerStop;
     }

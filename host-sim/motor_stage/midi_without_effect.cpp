@@ -5,11 +5,10 @@ namespace nplc::sim {
 namespace {
 
 std::string input_note(const MidiModule& module, action::DriveInput input) {
-    constexpr std::uint8_t kHardwareStops = 1;
     switch (input) {
         case action::DriveInput::upper_stop:
         case action::DriveInput::lower_stop:
-            if ((module.memory().stops & kHardwareStops) != 0) return {};
+            if ((module.memory().stops & MidiMemory::kHardwareStops) != 0) return {};
             return "the stop inputs are not enabled (03h, END_STOPS 1)";
         case action::DriveInput::reference:
             if (module.reference_enabled()) return {};

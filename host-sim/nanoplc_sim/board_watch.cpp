@@ -60,9 +60,13 @@ void BoardWatch::look() {
     }
     const gateway::Gateway& gateway = world_.gateway();
     const bool waits = gateway.run_state() == gateway::RunState::waiting_for_motor && gateway.scans() == 0;
-    if (!waits) waiting_since_.reset();
-    if (waits && !waiting_since_) waiting_since_ = world_.now();
-    if (!std::exchange(said_that_it_waits_, waits_for_motor()) && said_that_it_waits_) {
+    if (!waits) {
+        waiting_since_.reset();
+    } else if (!waiting_since_) {
+        waiting_since_ = world_.now();
+    }
+    const bool is_said = std::exchange(said_that_it_waits_, waits_for_motor());
+    if (said_that_it_waits_ && !is_said) {
         timeline_.alarm(
             "the gateway waits for the motor, which does not answer: no step begins before it does");
     }

@@ -10,6 +10,8 @@
 #include "host/printable.h"
 #include "input_file.h"
 #include "panel/names.h"
+#include "rehearsal/names.h"
+#include "seqc/symbol_file.h"
 
 namespace nplc::sim {
 namespace {
@@ -42,25 +44,13 @@ double milliseconds_of(const Session& session) {
     return static_cast<double>(session.now().count()) / 1e6;
 }
 
-/// Replaces the program's names by those of another one.
-void rename(Names& names, std::string_view symbols) {
-    const panel::SignalNames given = panel::signals_in(symbols);
-    const auto take = [](auto& own, const std::vector<std::string>& others) {
-        for (std::size_t i = 0; i < own.size(); ++i) own[i] = i < others.size() ? others[i] : "";
-    };
-    take(names.inputs, given.inputs);
-    take(names.outputs, given.outputs);
-    names.inverted_inputs = given.inverted_inputs;
-    names.steps = given.steps;
-    names.copy_of.clear();
-    names.groups.clear();
-    names.times.clear();
-    names.numbers = 0;
-    names.set_points = {};
-    const faces::Scaling scale = panel::scale_in(symbols);
-    names.machine.reset();
-    if (!panel::is_same(scale, {}))
-        names.machine = MachineUnit{.name = scale.unit, .per_rev = scale.per_revolution};
+/// Of another table; terminals and numbers where its symbols cannot be read. The machine stays the same.
+Names names_in(std::string_view symbols, const Names& own) {
+    const seqc::SymbolReading reading = seqc::read_symbols(symbols);
+    Names names = reading.error.empty() ? rehearsal::names_of(reading.file.symbols) : Names{};
+    names.motor = own.motor;
+    names.drive = own.drive;
+    return names;
 }
 
 /// The scenario actions of one line, or its error.
@@ -179,8 +169,6 @@ void PanelDoor::look(Session& session) {
     if (!is_open()) return;
     const gateway::Gateway& sequence = session.world().controller().sequence();
     const Set now{sequence.forces().inputs(), sequence.forces().outputs(), sequence.breakpoints()};
-    // Both end with a restart, in the scenario too.
-    if (std::exchange(starts_, session.world().starts()) != session.world().starts()) set_ = {};
     if (now == set_) return;
     const Set before = std::exchange(set_, now);
     const double at = milliseconds_of(session);
@@ -237,7 +225,6 @@ void PanelDoor::serve(Session& session) {
         state_.milliseconds = static_cast<std::uint64_t>(session.now().count() / 1'000'000);
     }
     for (const std::string& command : std::exchange(ordered_, {})) {
-        if (command == "gateway safe") set_ = {};
         const std::lock_guard lock(mutex_);
         add_to_record(milliseconds_of(session), command);
     }
@@ -262,8 +249,8 @@ PanelDoor::Found PanelDoor::find(std::size_t, std::uint32_t crc) {
 }
 
 void PanelDoor::take_names(std::uint32_t crc, std::string_view symbols) {
-    names_ = program_.names;
-    if (crc != program_.crc32 || symbols != program_.symbols_text) rename(names_, symbols);
+    const bool is_own = crc == program_.crc32 && symbols == program_.symbols_text;
+    names_ = is_own ? program_.names : names_in(symbols, program_.names);
     if (std::exchange(active_, crc).value_or(crc) != crc)
         record_ += fmt::format("# at {} ms another table became active, which a scenario cannot do\n",
                                state_.milliseconds);

@@ -45,7 +45,7 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
     void open();
     /// Carries out the requests since the last call.
     void serve(Session& session);
-    /// A face's write to the gateway, when it is carried out, between two steps of the world: for the record.
+    /// A face's write to the gateway, between two steps of the world: for the record.
     void ordered(const faces::Command& command);
     /// After every step of the world: records forces and breakpoints.
     void look(Session& session);
@@ -91,7 +91,6 @@ class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
     const faces::AxisModel& axis_;
     std::vector<std::string> ordered_;  ///< commands since the last serve(), as actions; of the run's thread
     Set set_;                           ///< as recorded; of the run's thread
-    std::uint64_t starts_ = 0;          ///< of the gateway, at the last look(); of the run's thread
     mutable std::mutex mutex_;
     std::vector<Wanted> wanted_;
     Names names_;  ///< of the active table

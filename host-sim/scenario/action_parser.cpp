@@ -74,9 +74,9 @@ Actions ActionParser::actions() {
         action(list, after);
         if (reader_.is("for"))
             reader_.refuse_next(
-                "for takes back an input, line cut, motor power off and a MIDI module's inputs only; write "
-                "what "
-                "follows, such as motor load 500, after 200 ms motor load 0");
+                "for takes back an input, a force, line cut, motor power off and a MIDI module's inputs "
+                "only; "
+                "write what follows, such as motor load 500, after 200 ms motor load 0");
     } while (reader_.take(","));
     return list;
 }

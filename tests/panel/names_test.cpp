@@ -26,27 +26,6 @@ TEST(PanelNames, WithoutAScaleRevolutions) {
         EXPECT_TRUE(is_same(scale_in(text), {})) << text;
 }
 
-TEST(PanelNames, SignalsAndSteps) {
-    const SignalNames names = signals_in(
-        R"({"inputs":["Start","",7],"outputs":["Grip"],"steps":[{"number":0,"name":"POWER_UP"},)"
-        R"({"number":62,"name":"Last"},{"number":63,"name":"None"},{"number":"1","name":"Text"},null]})");
-    EXPECT_EQ(names.inputs, (std::vector<std::string>{"Start", "", ""}));
-    EXPECT_EQ(names.outputs, std::vector<std::string>{"Grip"});
-    EXPECT_EQ(names.steps, (std::map<std::uint8_t, std::string>{{0, "POWER_UP"}, {62, "Last"}}));
-    EXPECT_EQ(names.inverted_inputs, 0);
-    for (const char* text :
-         {"", "{", "[]", "{}", R"({"inputs":{},"outputs":7,"steps":"x","inverted_inputs":2})"}) {
-        const SignalNames none = signals_in(text);
-        EXPECT_TRUE(none.inputs.empty() && none.outputs.empty() && none.steps.empty()) << text;
-        EXPECT_EQ(none.inverted_inputs, 0) << text;
-    }
-}
-
-TEST(PanelNames, InvertedInputs) {
-    EXPECT_EQ(signals_in(R"({"inverted_inputs":[2,5]})").inverted_inputs, 0x24);
-    EXPECT_EQ(signals_in(R"({"inverted_inputs":[6,-1,"2",null,1.5,0]})").inverted_inputs, 0x01);
-}
-
 // Its values are copied and written by functions that call themselves.
 TEST(PanelNames, ADeepFileIsNotRead) {
     constexpr std::size_t kMany = 200'000;

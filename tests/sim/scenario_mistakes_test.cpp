@@ -109,10 +109,10 @@ TEST(ScenarioParser, MistakesInUnits) {
     for (const char* with : {"P_IST = 0", "V_IST > 0", "P_IST = 0 +- 1 mm", "P_IST = 5 +- 1 counts",
                              "COUNTER = 5", "TORQUE > 5"})
         EXPECT_TRUE(parse(std::string("expect ") + with).mistakes.empty()) << with;
-    EXPECT_EQ(
-        at_column("at 1 s motor load 500 for 200 ms"),
-        "23: for takes back an input, line cut, motor power off and a MIDI module's inputs only; write what "
-        "follows, such as motor load 500, after 200 ms motor load 0");
+    EXPECT_EQ(at_column("at 1 s motor load 500 for 200 ms"),
+              "23: for takes back an input, a force, line cut, motor power off and a MIDI module's inputs "
+              "only; write what "
+              "follows, such as motor load 500, after 200 ms motor load 0");
     EXPECT_EQ(at_column("motor stop above 5"),
               "18: 5 of what? The program has a SCALE; write counts, rev or mm behind it");
     EXPECT_EQ(at_column("motor sensor on below -2.5"),

@@ -254,12 +254,16 @@ TEST_F(WorldRun, WhatDoesNothingIsSaid) {
     world_.gateway(action::Gateway::stop);
     world_.gateway(action::Gateway::stop);
     world_.gateway(action::Gateway::run);
-    ASSERT_EQ(said.size(), 5U);
+    world_.gateway(action::Gateway::hold);
+    world_.gateway(action::Gateway::step);
+    ASSERT_EQ(said.size(), 7U);
     EXPECT_EQ(said[0], "motor power on: nothing follows: it has its supply already");
     EXPECT_EQ(said[1], "motor error: nothing follows: it has no supply (motor power off)");
     EXPECT_EQ(said[2], "motor supply: nothing follows: it has no supply (motor power off)");
     EXPECT_EQ(said[3], "gateway stop: the sequence is stopped already");
     EXPECT_TRUE(said[4].starts_with("gateway run: refused: ")) << "the motor has not confirmed the stop yet";
+    EXPECT_EQ(said[5], "gateway hold: refused: the sequence does not run");
+    EXPECT_TRUE(said[6].starts_with("gateway step: refused: "));
     run_to(400ms);
     EXPECT_EQ(world_.mac().err_stat() & 0x0F, 0U) << "the error of before is not kept for later";
 }

@@ -15,42 +15,6 @@ nlohmann::json json_of(std::string_view text) {
     return nlohmann::json::parse(text, nullptr, false);
 }
 
-std::vector<std::string> texts_in(const nlohmann::json& json, const char* name) {
-    std::vector<std::string> texts;
-    const auto list = json.find(name);
-    if (list == json.end() || !list->is_array()) return texts;
-    for (const auto& one : *list) texts.push_back(one.is_string() ? one.get<std::string>() : "");
-    return texts;
-}
-
-std::uint8_t inverted_in(const nlohmann::json& json) {
-    constexpr unsigned kInputs = 6;
-    unsigned bits = 0;
-    const auto list = json.find("inverted_inputs");
-    if (list == json.end() || !list->is_array()) return 0;
-    for (const auto& one : *list) {
-        if (one.is_number_unsigned() && one.get<std::uint64_t>() < kInputs) bits |= 1U << one.get<unsigned>();
-    }
-    return static_cast<std::uint8_t>(bits);
-}
-
-std::map<std::uint8_t, std::string> steps_in(const nlohmann::json& json) {
-    constexpr unsigned kMostSteps = 63;
-    std::map<std::uint8_t, std::string> steps;
-    const auto list = json.find("steps");
-    if (list == json.end() || !list->is_array()) return steps;
-    for (const auto& one : *list) {
-        if (!one.is_object()) continue;
-        const auto number = one.find("number");
-        const auto name = one.find("name");
-        if (number == one.end() || !number->is_number_unsigned() || name == one.end() || !name->is_string())
-            continue;
-        if (number->get<std::uint64_t>() < kMostSteps)
-            steps[number->get<std::uint8_t>()] = name->get<std::string>();
-    }
-    return steps;
-}
-
 }  // namespace
 
 bool is_for_table(std::string_view text, std::uint32_t crc) {
@@ -75,12 +39,6 @@ faces::Scaling scale_in(std::string_view text) {
     if (unit == scale.end() || !unit->is_string() || number("revolutions") <= 0 || number("length") <= 0)
         return {};
     return {.unit = unit->get<std::string>(), .per_revolution = number("length") / number("revolutions")};
-}
-
-SignalNames signals_in(std::string_view text) {
-    const auto json = json_of(text);
-    if (!json.is_object()) return {};
-    return {texts_in(json, "inputs"), texts_in(json, "outputs"), steps_in(json), inverted_in(json)};
 }
 
 bool is_same(const faces::Scaling& a, const faces::Scaling& b) {

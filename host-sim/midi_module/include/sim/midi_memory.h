@@ -18,6 +18,8 @@ struct MidiMemory {
     std::uint8_t unstall = 5;
     std::uint8_t ramp = 16;
     bool standby = true;
+    static constexpr std::uint8_t kHardwareStops = 1;  ///< in `stops`
+    static constexpr std::uint8_t kSoftwareStops = 8;
     std::uint8_t stops = 0;
     std::uint8_t tolerance = 0;
     std::int32_t position = 0;

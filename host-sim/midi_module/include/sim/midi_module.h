@@ -52,7 +52,7 @@ class MidiModule {
     std::optional<std::uint32_t> answer(std::uint8_t query, std::uint8_t sub_index) const;
     /// The last 10,000 commands carried out, oldest first.
     const std::deque<MidiAction>& actions() const { return actions_; }
-    /// SYNC on the bus, and the command. False: nothing was prepared, or a fault does not allow it.
+    /// SYNC on the bus, and the command. False: what was prepared is not allowed now.
     bool sync();
     /// A restart was commanded; the line's end calls restart() once the answer has been sent.
     bool wants_restart() const { return wants_restart_; }
