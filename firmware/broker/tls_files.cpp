@@ -42,8 +42,16 @@ std::string no_certificate(const std::string& file) {
         file);
 }
 
-bool has_certificate(SSL_CTX* context, const std::string& file) {
-    return ::SSL_CTX_use_certificate_chain_file(context, file.c_str()) == 1;
+/// Empty: `context` has the certificate.
+std::string mistake_in_certificate(SSL_CTX* context, const std::string& file) {
+    if (::SSL_CTX_use_certificate_chain_file(context, file.c_str()) == 1) return {};
+    const unsigned long error = ::ERR_peek_last_error();
+    if (ERR_GET_REASON(error) == ERR_R_PEM_LIB) return no_certificate(file);
+    const char* const why = ::ERR_reason_error_string(error);
+    return fmt::format(
+        "{}: is not taken: {}; make one with an RSA key of 2048 bits or more, or with one of an elliptic "
+        "curve",
+        file, why == nullptr ? "unknown" : why);
 }
 
 /// `certificate`: null if there is none.
@@ -68,6 +76,8 @@ std::string mistake_in_key(const std::string& file, const X509* certificate) {
 
 std::vector<Mistake> mistakes_in_files(const Options& options) {
     std::vector<Mistake> mistakes;
+    if (options.ca_file.empty() && options.certificate_file.empty() && options.key_file.empty())
+        return mistakes;
     const Context context(::SSL_CTX_new(::TLS_client_method()), ::SSL_CTX_free);
     if (!context) return mistakes;
     const auto note = [&mistakes](std::string_view key, std::string text) {
@@ -84,10 +94,8 @@ std::vector<Mistake> mistakes_in_files(const Options& options) {
         note("ca_file", no_certificate(options.ca_file));
     const X509* certificate = nullptr;
     if (is_readable("certificate_file", options.certificate_file)) {
-        if (has_certificate(context.get(), options.certificate_file))
-            certificate = ::SSL_CTX_get0_certificate(context.get());
-        else
-            note("certificate_file", no_certificate(options.certificate_file));
+        note("certificate_file", mistake_in_certificate(context.get(), options.certificate_file));
+        certificate = ::SSL_CTX_get0_certificate(context.get());  // null: none was taken
     }
     if (is_readable("key_file", options.key_file))
         note("key_file", mistake_in_key(options.key_file, certificate));

@@ -95,8 +95,10 @@ ListeningSocket listen_at_port(const std::string& where) {
     const int on = 1;
     if (listener) ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (!listener || ::bind(listener.get(), generic(*address), sizeof *address) != 0 ||
-        ::listen(listener.get(), SOMAXCONN) != 0)
-        return failed(asked + ": " + reason() + "; " + listen_remedy(errno));
+        ::listen(listener.get(), SOMAXCONN) != 0) {
+        const int cause = errno;
+        return failed(fmt::format("{}: {}; {}", asked, std::strerror(cause), listen_remedy(cause)));
+    }
     const std::string name = tcp_name(listener.get());
     return {std::move(listener), name, BoundPath(), {}};
 }

@@ -64,9 +64,9 @@ std::uint16_t port_of(int descriptor) {
 std::string listen_remedy(int error) {
     switch (error) {
         case EACCES:
-            return "a port below 1024 needs the right to it; write one above 1023, or `systemctl edit "
-                   "nanoplc` "
-                   "with [Service], AmbientCapabilities=CAP_NET_BIND_SERVICE and "
+            return "a port below 1024 needs the right to it; write one above 1023, or for the package's "
+                   "service `systemctl edit nanoplc` with [Service], "
+                   "AmbientCapabilities=CAP_NET_BIND_SERVICE and "
                    "CapabilityBoundingSet=CAP_NET_BIND_SERVICE";
         case EADDRINUSE:
             return "another program listens there, and `ss -ltnp` as root names it; end it, or write another "

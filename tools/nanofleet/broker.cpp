@@ -75,7 +75,8 @@ Broker::Session::Session(const broker::Options& options, Take take)
     if (code != MOSQ_ERR_SUCCESS) fail(broker::reason_of(code));
     for (int i = 0; i < kFirstTries && !is_connected_ && refusal_.empty(); ++i) {
         command_line::look_for_interruption();
-        if (::mosquitto_loop(handle_.get(), kPiece, 1) != MOSQ_ERR_SUCCESS) fail("the connection is lost");
+        const int looped = ::mosquitto_loop(handle_.get(), kPiece, 1);
+        if (looped != MOSQ_ERR_SUCCESS) fail(broker::reason_of(looped));
     }
     if (!is_connected_) fail("the broker does not answer");
 }

@@ -12,8 +12,9 @@ constexpr base::Milliseconds kBetweenTriesToOpen{250};
 
 }  // namespace
 
-std::string ReconnectingUart::open(const hal_linux::UartSettings& settings) {
+std::string ReconnectingUart::open(const hal_linux::UartSettings& settings, JournalFields lost) {
     path_ = settings.path;
+    lost_ = std::move(lost);
     uart_.reset();  // the port is held exclusively
     uart_ = hal_linux::Uart::absent(settings);
     retry_at_ = base::kNever;
@@ -21,9 +22,9 @@ std::string ReconnectingUart::open(const hal_linux::UartSettings& settings) {
     return problem_;
 }
 
-bool ReconnectingUart::look(AxisJournal& journal, const JournalFields& fields, base::Instant now) {
+bool ReconnectingUart::look(AxisJournal& journal, base::Instant now) {
     const auto tell = [&](const std::string& problem) {
-        journal.write(LogLevel::error, JournalEvent::port_gone, problem, fields);
+        journal.write(LogLevel::error, JournalEvent::port_gone, problem, lost_);
     };
     if (!uart_->gone()) return false;
     if (retry_at_ == base::kNever) {
@@ -53,15 +54,16 @@ CanState without_degrees(CanState state) {
 
 }  // namespace
 
-void ReconnectingCan::open(const hal_linux::CanSettings& settings) {
+void ReconnectingCan::open(const hal_linux::CanSettings& settings, JournalFields lost) {
+    lost_ = std::move(lost);
     interface_ = settings.interface;
     can_ = hal_linux::SocketCan::absent(settings);
     retry_at_ = base::kNever;
     problem_ = can_->reopen();
 }
 
-void ReconnectingCan::look(AxisJournal& journal, const JournalFields& fields, base::Instant now) {
-    tell_state(journal, fields);
+void ReconnectingCan::look(AxisJournal& journal, base::Instant now) {
+    tell_state(journal);
     tell_problem(journal);
     if (!can_->gone()) {
         retry_at_ = base::kNever;
@@ -70,9 +72,9 @@ void ReconnectingCan::look(AxisJournal& journal, const JournalFields& fields, ba
     if (retry_at_ != base::kNever && now < retry_at_) return;
     retry_at_ = now + kBetweenTriesToOpen;
     const std::string before = std::exchange(problem_, can_->reopen());
-    if (problem_.empty()) return tell_state(journal, fields);
+    if (problem_.empty()) return tell_state(journal);
     if (!before.empty() && before != problem_)
-        journal.write(LogLevel::error, JournalEvent::port_gone, problem_, fields);
+        journal.write(LogLevel::error, JournalEvent::port_gone, problem_, lost_);
 }
 
 void ReconnectingCan::tell_problem(AxisJournal& journal) {
@@ -83,17 +85,17 @@ void ReconnectingCan::tell_problem(AxisJournal& journal) {
     journal.write(LogLevel::info, JournalEvent::bus_state, told_problem_);
 }
 
-void ReconnectingCan::tell_presence(AxisJournal& journal, const JournalFields& fields) {
+void ReconnectingCan::tell_presence(AxisJournal& journal) {
     if (can_->gone() == told_gone_) return;
     told_gone_ = can_->gone();
     told_ = CanState::down;
     if (!told_gone_) return journal.write(LogLevel::notice, JournalEvent::port_back, interface_ + " is back");
     journal.write(LogLevel::error, JournalEvent::port_gone,
-                  problem_.empty() ? interface_ + " is gone; plug the adapter in again" : problem_, fields);
+                  problem_.empty() ? interface_ + " is gone; plug the adapter in again" : problem_, lost_);
 }
 
-void ReconnectingCan::tell_state(AxisJournal& journal, const JournalFields& fields) {
-    tell_presence(journal, fields);
+void ReconnectingCan::tell_state(AxisJournal& journal) {
+    tell_presence(journal);
     const CanState state = without_degrees(can_->state());
     if (told_gone_ || state == told_) return;
     told_ = state;
@@ -104,7 +106,7 @@ void ReconnectingCan::tell_state(AxisJournal& journal, const JournalFields& fiel
         state == CanState::bus_off
             ? " is off the bus; look at its bit rate, its wires and the 120 Ohm at both ends; it is restarted"
             : fmt::format(" is down; as root: ip link set {} up", interface_);
-    journal.write(LogLevel::error, JournalEvent::bus_state, interface_ + text, fields);
+    journal.write(LogLevel::error, JournalEvent::bus_state, interface_ + text, lost_);
 }
 
 }  // namespace nplc::boards

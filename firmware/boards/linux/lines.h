@@ -16,18 +16,19 @@ namespace nplc::boards {
 class ReconnectingUart {
   public:
     /// Empty, or a one-line error: then the port is missing until look() finds it.
-    std::string open(const hal_linux::UartSettings& settings);
+    /// `lost`: fields of the message about its loss.
+    std::string open(const hal_linux::UartSettings& settings, JournalFields lost = {});
     hal_linux::Uart& uart() { return *uart_; }
     bool gone() const { return uart_->gone(); }
     /// True if it has come back, with another descriptor. Logs its loss and its return.
-    /// `fields`: of the message about its loss.
-    bool look(AxisJournal& journal, const JournalFields& fields, base::Instant now);
+    bool look(AxisJournal& journal, base::Instant now);
     /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
     std::string path_;
     std::string problem_;  ///< error of the last attempt to open it; empty: none
+    JournalFields lost_;
     std::unique_ptr<hal_linux::Uart> uart_;
     base::Instant retry_at_ = base::kNever;
 };
@@ -37,20 +38,21 @@ class ReconnectingUart {
 class ReconnectingCan {
   public:
     /// An interface that is down can be opened; one that cannot be opened is missing until look() finds it.
-    void open(const hal_linux::CanSettings& settings);
+    /// `lost`: fields of the messages that it is gone, down or off the bus.
+    void open(const hal_linux::CanSettings& settings, JournalFields lost);
     hal_linux::SocketCan& can() { return *can_; }
-    /// `fields`: of the messages that it is gone, down or off the bus.
-    void look(AxisJournal& journal, const JournalFields& fields, base::Instant now);
+    void look(AxisJournal& journal, base::Instant now);
     /// Latest time of the next look().
     base::Instant next_look() const { return retry_at_; }
 
   private:
-    void tell_presence(AxisJournal& journal, const JournalFields& fields);
-    void tell_state(AxisJournal& journal, const JournalFields& fields);
+    void tell_presence(AxisJournal& journal);
+    void tell_state(AxisJournal& journal);
     void tell_problem(AxisJournal& journal);
 
     std::string interface_;
     std::string problem_;  ///< error of the last attempt to open it; empty: none
+    JournalFields lost_;
     std::unique_ptr<hal_linux::SocketCan> can_;
     bool told_gone_ = false;
     std::string told_problem_;

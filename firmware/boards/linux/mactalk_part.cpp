@@ -16,7 +16,7 @@ ports::SerialPort* MactalkPart::start(motor::Motor& motor, std::uint8_t address)
 
 void MactalkPart::look(const gateway::Gateway& sequence, AxisJournal& journal, base::Instant now) {
     if (!line_) return;
-    port_->look(journal, {}, now);
+    port_->look(journal, now);
     const bool is_wanted = sequence.stop_unconfirmed() && !motor::link_is_usable(motor_->link());
     if (!line_->stop(is_wanted, now)) return;
     motor_->give_up_stop();

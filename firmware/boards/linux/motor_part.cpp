@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "drive_support.h"
 #include "gateway/settings_manager.h"
 
@@ -9,12 +11,15 @@ namespace nplc::boards {
 
 void MotorPart::open(const MotorConfig& config, std::uint32_t set_baud) {
     config_ = config;
+    JournalFields lost = cause_field(gateway::SafeReason::link_down);
     if (config.is_on_can()) {
-        if (!can_) can_.emplace().open({.interface = config.can.text, .bitrate = config.bitrate});
+        if (!can_)
+            can_.emplace().open({.interface = config.can.text, .bitrate = config.bitrate}, std::move(lost));
         return;
     }
     const std::uint32_t baud = config.baud.value_or(set_baud);
-    static_cast<void>(uart_.emplace().open({.path = config.port.text, .baud = baud, .rs485 = config.rs485}));
+    static_cast<void>(uart_.emplace().open({.path = config.port.text, .baud = baud, .rs485 = config.rs485},
+                                           std::move(lost)));
 }
 
 motor::Motor& MotorPart::start(const store::SettingValues& values) {
@@ -74,9 +79,8 @@ void MotorPart::ignore(hal_linux::EventLoop& loop) {
 }
 
 bool MotorPart::look(AxisJournal& journal, base::Instant now) {
-    const JournalFields fields = cause_field(gateway::SafeReason::link_down);
-    if (uart_) return uart_->look(journal, fields, now);
-    can_->look(journal, fields, now);
+    if (uart_) return uart_->look(journal, now);
+    can_->look(journal, now);
     return false;
 }
 

@@ -108,7 +108,7 @@ void UserConnection::tell_unwanted(base::Instant now) {
 }
 
 bool UserConnection::look_for_serial_port(base::Instant now) {
-    return uart_ && uart_->look(journal_, {}, now);
+    return uart_ && uart_->look(journal_, now);
 }
 
 base::Instant UserConnection::next_look() const {

@@ -210,6 +210,7 @@ Line line_of(const ValueRow& row, const faces::Scaling& scaling) {
 Line line_of(const registers::Register& reg, registers::Model model) {
     const auto units = registers::units_of(reg.unit);
     const std::string unit(units.empty() ? "" : units.front());
+    const std::string shown = unit == "°C" ? "C" : unit;  // as the other rows, in ASCII
     const auto steps = registers::raw_per_unit(reg, model, unit);
     const double scale =
         steps ? static_cast<double>(steps->denominator) / static_cast<double>(steps->numerator) : 1;
@@ -219,7 +220,7 @@ Line line_of(const registers::Register& reg, registers::Model model) {
             reg.min < 0 ? "int32" : "uint32",
             2,
             in_digits(scale),
-            unit,
+            shown,
             span_of(static_cast<double>(reg.min), static_cast<double>(reg.max), scale),
             fmt::format("register {} of the motor, manual {}", reg.number, reg.section),
             reg.access == registers::Access::read_only ? "read" : "read_write"};
@@ -315,19 +316,16 @@ const ValueRow* find_row(Space space, std::uint16_t address) {
 }
 
 bool is_second_word(Space space, unsigned address) {
-    const auto is_in = [address](unsigned first, unsigned end) {
-        return address > first && address < end && (address - first) % 2 != 0;
+    const auto is_of = [&](const auto& row) {
+        return row.space == space && row.words == 2 && address == row.address + 1U;
     };
-    if (space == Space::holding_register) return is_in(kSetPointsNew, kHoldings);
-    if (space != Space::input_register || address > 0xFFFF) return false;
-    const ValueRow* row = find_row(space, static_cast<std::uint16_t>(address));
-    if (row != nullptr) return address != row->address;
-    constexpr unsigned kTextsEnd = kSetPointTexts + kTextWords * registers::gateway::kSetPoints;
-    const unsigned in_text = (address - kSetPointTexts) % kTextWords;
-    if (address >= kSetPointTexts && address < kTextsEnd)
-        return in_text < kTextOfDecimals && in_text % 2 != 0;
-    return address == kSetPointRecord + 1 || address == kSetPointChanges + 1 ||
-           is_in(kSetPointValues, kSetPointValues + 2 * registers::gateway::kSetPoints);
+    if (std::any_of(std::begin(kRows), std::end(kRows), is_of)) return true;
+    if (std::any_of(std::begin(kOwn), std::end(kOwn), is_of)) return true;
+    return std::any_of(std::begin(kSetPointRows), std::end(kSetPointRows), [&](const SetPointRow& row) {
+        const unsigned offset = address - row.address;  // before the first one it is large
+        return row.space == space && row.words == 2 && offset % row.stride == 1 &&
+               offset / row.stride < registers::gateway::kSetPoints;
+    });
 }
 
 std::string map_as_csv(const faces::Scaling& scaling, registers::Model model) {

@@ -161,7 +161,7 @@ constexpr Point kPoints[] = {
     {"stop_unconfirmed", "", B, false, "the motor was told to stop and has not confirmed it: it may be moving", status_bit<gw::kStopUnconfirmed>},
     {"stop_unconfirmed_time", "ms", W, false, "since the motor was told to stop, while it has not confirmed it; else 0", stop_unconfirmed_time},
     {"run_state", "", W, false, "0 stopped, 1 waits for the motor, 2 running, 3 about to be held, 4 held", own<gw::STATUS, 0, 7>},
-    {"step", "", W, false, "0..62", own<gw::STEP>},
+    {"step", "", W, false, "the step that the sequence is in, 0..62", own<gw::STEP>},
     {"timer", "ms", W, false, "what is left of it", own<gw::TIMER>},
     {"counter", "", W, false, "what the sequence counts", own<gw::COUNTER>},
     {"inputs", "", W, false, "bits 5..0 as the sequence has them, forced ones included", own<gw::INPUTS, 0, 0x3F>},

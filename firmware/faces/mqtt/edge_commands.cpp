@@ -74,9 +74,10 @@ void EdgeNode::submit(Device& device, const std::string& what, const faces::Comm
     device.sets_values = command.reg == gw::SET_POINT_WRITE;
 }
 
-/// Why a command is not carried out that is retained, may have waited in a queue, or is repeated; empty: it
-/// is. A stop may be older than the last command, which another host with another clock may have sent.
-std::string EdgeNode::lateness(Device& device, const Given& given, bool stops) const {
+/// Notes the timestamp; or why a command is not carried out that is retained, may have waited in a queue, or
+/// is repeated. A stop may be older than the last command, which another host with another clock may have
+/// sent.
+std::string EdgeNode::take_timestamp(Device& device, const Given& given, bool stops) {
     const auto limit = static_cast<std::uint64_t>(options_.command_age.count());
     const bool is_ahead = given.timestamp > given.now;
     const std::uint64_t apart = is_ahead ? given.timestamp - given.now : given.now - given.timestamp;
@@ -86,10 +87,11 @@ std::string EdgeNode::lateness(Device& device, const Given& given, bool stops) c
         return "the message has no timestamp, and may be old; send one with each command; nothing was done";
     if (apart > limit)
         return fmt::format(
-            "the timestamp is {}.{:03} s {} the gateway's clock, and command_age allows {} ms: either it "
-            "waited "
-            "on its way, or a clock is wrong; let host and gateway follow NTP; nothing was done",
-            apart / 1'000, apart % 1'000, is_ahead ? "ahead of" : "behind", limit);
+            "the timestamp is {}.{:03} s {} the gateway's clock, and command_age allows {} ms: {}; let host "
+            "and "
+            "gateway follow NTP; nothing was done",
+            apart / 1'000, apart % 1'000, is_ahead ? "ahead of" : "behind", limit,
+            is_ahead ? "one of the clocks is wrong" : "it waited on its way, or a clock is wrong");
     if (!stops && given.timestamp <= device.last_command)
         return "the timestamp is not later than that of the last command, so it may be a repeated message or "
                "come from a host whose clock is behind another's; nothing was done";
@@ -161,7 +163,7 @@ void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given
         return refuse(device, shown_name(metric), Result::not_allowed,
                       "it is none of the `commands` that [mqtt] allows");
     const auto order = faces::Command::of(*allowed, given.message.arrived);
-    if (const std::string why = lateness(device, given, order.is_stop()); !why.empty())
+    if (const std::string why = take_timestamp(device, given, order.is_stop()); !why.empty())
         return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late, why);
     submit(device, std::string(gw::name_of(*allowed)), order);
 }
@@ -229,7 +231,7 @@ void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric
     if (recipe != nullptr && metrics.size() != 1)
         return refuse(device, what, Result::bad_value,
                       "a recipe and values in one message; nothing was done");
-    if (const std::string why = lateness(device, given, false); !why.empty())
+    if (const std::string why = take_timestamp(device, given, false); !why.empty())
         return refuse(device, what, Result::too_late, why);
     const auto request = recipe == nullptr
                              ? set_points::encode_request(record, gw::SetPointRequest::change, values)

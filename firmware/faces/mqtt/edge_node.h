@@ -111,7 +111,7 @@ class EdgeNode {
     void take_set_points(std::size_t index, const std::vector<const Metric*>& metrics, const Given& given);
     std::optional<std::size_t> set_point_of(std::size_t index, const Metric& metric) const;
     bool is_of_recipe(std::size_t index, const Metric& metric) const;
-    std::string lateness(Device& device, const Given& given, bool stops) const;
+    std::string take_timestamp(Device& device, const Given& given, bool stops);
     void refuse_what_is_none(std::size_t index, const Payload& payload);
     void submit(Device& device, const std::string& what, const faces::Command& command);
     void refuse(Device& device, const std::string& what, faces::Result result, const std::string& text = {});

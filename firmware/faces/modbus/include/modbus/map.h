@@ -70,7 +70,7 @@ inline constexpr std::uint16_t kRecipeWords = 8;
 inline constexpr std::uint16_t kRecipes = 8;
 
 /// The whole map with a header line: address, block, name, type, words, scale (the value is the number in the
-/// words times it), unit, range (of the value), meaning, access. As in RFC 4180.
+/// words times it), unit, range (of the value), meaning, access. Quoted as in RFC 4180.
 std::string map_as_csv(const faces::Scaling& scaling, registers::Model model);
 /// The same as a table for the documentation, without the motor's registers; of set-points and recipes the
 /// first one.

@@ -218,15 +218,20 @@ export class Operation {
 
   private offerStored(): void {
     const axis = this.axis!;
-    this.notice(`The stored table (CRC-32 as uploaded ${hex(axis.r.STORED_CRC ?? 0)}) becomes the active one. That stops the sequence.`, false, {
-      label: "Stop and use it", act: () => void this.useStored(axis.info.name) });
+    const crc = axis.r.STORED_CRC ?? 0;
+    this.notice(`The stored table (CRC-32 as uploaded ${hex(crc)}) becomes the active one. That stops the sequence.`, false, {
+      label: "Stop and use it", act: () => void this.useStored(axis, crc) });
   }
 
-  private async useStored(axis: string): Promise<void> {
-    if (!(await this.stopAxis("stop", axis))) return;
+  private async useStored(axis: Axis, crc: number): Promise<void> {
+    const isAnother = (): boolean => (axis.r.STORED_CRC ?? 0) !== crc;
+    const another = "Another table was stored meanwhile; nothing was made active.";
+    if (isAnother()) return void this.notice(another, true);
+    if (!(await this.stopAxis("stop", axis.info.name))) return;
     const end = performance.now() + kStillWait;
     for (;;) {
-      const answer = await this.wireAsk({ do: "command", name: "activate", axis });
+      if (isAnother()) return void this.notice(another, true);
+      const answer = await this.wireAsk({ do: "command", name: "activate", axis: axis.info.name });
       if (answer.result === "done") return void this.notice("The stored table is active. Run it when the machine is clear.");
       if (answer.code !== kMoving || performance.now() >= end) return void this.notice(`use stored table: ${answer.text}`, true);
       await new Promise((resolve) => setTimeout(resolve, kStillPause));
@@ -269,6 +274,7 @@ export class Operation {
     enable("do-scan", may && axis.hasTable && !axis.stopUnconfirmed && !axis.isRunning);
     enable("do-reset-error", may);
     enable("do-give-up", may);
+    enable("do-activate", may);
     byId("do-activate").hidden = !axis.status(kStoredDiffers);
     setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
     setText(byId("seat"), this.wire.state !== "open" ? "Who operates is not known" : axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
