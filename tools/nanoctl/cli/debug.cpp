@@ -86,18 +86,18 @@ void parse_force(Session& session, const std::string& text, Force& in, Force& ou
     const auto equals = text.find('=');
     const std::string name = text.substr(0, equals);
     const std::string level = equals == std::string::npos ? "" : text.substr(equals + 1);
-    const auto input = session.right_names().find_input(name);
-    const auto output = session.right_names().find_output(name);
+    const Names& names = session.right_names();
+    const auto input = names.find_input(name);
+    const auto output = names.find_output(name);
     if ((!input && !output) || (level != "0" && level != "1"))
         throw UserError(
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
                         "=0 or =1{}",
-                        text, input || output ? "" : session.right_names().guess(name, false)));
-    if (input && session.right_names().input(*input) != session.right_names().wire(*input) &&
-        spelling::is_same(name, session.right_names().input(*input)))
+                        text, input || output ? "" : names.guess(name, false)));
+    if (input && names.is_inverted(*input) && spelling::is_same(name, names.input(*input)))
         throw UserError(fmt::format(
             "'{0}': {1} is NOT IN{2}, and a force is of the wire: write IN{2}=0 for {1} on, IN{2}=1 for off",
-            text, session.right_names().input(*input), *input));
+            text, names.input(*input), *input));
     if (input ? (in.mask >> *input & 1U) != 0 : (out.mask >> *output & 1U) != 0)
         throw UserError(fmt::format("'{}': {} is named twice; name it once", text, name));
     if (input)

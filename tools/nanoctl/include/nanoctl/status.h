@@ -46,6 +46,7 @@ class Names {
     std::string input(unsigned index) const;
     /// What is true while the wire is on: "START", "NOT ESTOP".
     std::string wire(unsigned index) const;
+    bool is_inverted(unsigned index) const { return (named(0) >> index & 1U) != 0; }
     /// The levels of the inputs as what their names say.
     std::uint32_t named(std::uint32_t inputs) const;
     std::string output(unsigned index) const;
