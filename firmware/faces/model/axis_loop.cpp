@@ -248,7 +248,7 @@ void AxisLoop::carry_out_stop(gateway::Controller& controller, const Work& stop)
     if (change_ && !change_ended_ && change_writer_.request == 0)
         change_ended_ = Completion{.result = Result::too_late};
     Completion completion = write_own(controller, stop.command);
-    if (tell_write_ && completion.result == Result::done) tell_write_(stop.command);
+    if (settings_.tell_write && completion.result == Result::done) settings_.tell_write(stop.command);
     // A hold of a sequence that does not run is no stop; the motor may be moving all the same.
     if (completion.result == Result::not_running && controller.sequence().stop_unconfirmed())
         completion.result = Result::stop_unconfirmed;
@@ -370,7 +370,7 @@ void AxisLoop::begin_own(gateway::Controller& controller) {
         command.size != 0 ? std::span(command.data).first(command.size) : std::span(value);
     controller.registers().begin_write(command.reg, bytes, now_);
     own_write_ = controller.registers().writes_begun();
-    if (tell_write_) tell_write_(command);
+    if (settings_.tell_write) settings_.tell_write(command);
 }
 
 void AxisLoop::begin_motor(gateway::Controller& controller) {

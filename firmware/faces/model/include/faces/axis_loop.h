@@ -20,6 +20,7 @@ struct LoopSettings {
     Control control = Control::any;
     /// Input 0..5 that selects: on is remote, off is local.
     std::optional<std::uint8_t> remote_input{};
+    std::function<void(const Command&)> tell_write{};  ///< see AxisLoop::tell_writes
 };
 
 /// The axis loop's side of the model: takes images between two scans, reads the motor periodically, and
@@ -44,7 +45,7 @@ class AxisLoop {
     Seat& seat() { return seat_; }
     /// `tell` is called in poll(), for each command of a face that writes a register of the gateway, when the
     /// gateway is given it, also one that it then refuses; of stops only those that are carried out.
-    void tell_writes(std::function<void(const Command&)> tell) { tell_write_ = std::move(tell); }
+    void tell_writes(std::function<void(const Command&)> tell) { settings_.tell_write = std::move(tell); }
 
   private:
     using Work = CommandDesk::Work;
@@ -77,7 +78,6 @@ class AxisLoop {
 
     AxisModel& model_;
     LoopSettings settings_;
-    std::function<void(const Command&)> tell_write_;
     Seat seat_;
     MotorReader reader_;
     MidiWatch midi_;
